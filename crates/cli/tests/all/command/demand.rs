@@ -1,0 +1,67 @@
+//! The default demand, and the warning about a demand above capacity.
+
+use serde_json::Value;
+
+use crate::command::program::{Folder, closed};
+
+fn number(summary: &Value, field: &str) -> f64 {
+    summary[field].as_f64().unwrap()
+}
+
+#[test]
+fn without_a_demand_seventy_per_cent_of_the_estimated_capacity_come_and_the_screen_says_so() {
+    for map in ["motorway_3_lanes", "right_before_left", "town"] {
+        let folder = Folder::new();
+        let run = folder.laneweave(&format!("run MAPS/{map}.osm --duration 1 --record 0"));
+        let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+        let [demand, capacity] = ["demand_veh_h", "entrance_capacity"].map(|it| number(&summary, it));
+        assert!((demand - 0.7 * capacity).abs() <= 0.51, "{map}: {demand} of {capacity}");
+        let bottleneck = summary["bottleneck"].as_str().unwrap();
+        let said = format!(
+            "demand: {demand:.0} veh/h, 70 % of the estimated capacity of {capacity:.0} veh/h (bottleneck: {bottleneck})\n"
+        );
+        assert!(run.errors().ends_with(&said), "{}", run.errors());
+        let screen =
+            format!("{demand:.0} veh/h; estimated capacity {capacity:.0} veh/h (bottleneck: {bottleneck})\n");
+        assert!(run.text().contains(&screen), "{}", run.text());
+    }
+}
+
+#[test]
+fn on_a_closed_map_the_demand_is_a_share_of_the_estimate_as_well() {
+    let folder = Folder::new().with("ring.osm", &closed());
+    let summary = folder.summary("ring.osm --duration 1 --record 0");
+    let [demand, capacity] = ["demand_veh_h", "entrance_capacity"].map(|it| number(&summary, it));
+    assert!(capacity > 0.0 && (demand - 0.7 * capacity).abs() <= 0.51, "{demand} of {capacity}");
+}
+
+#[test]
+fn a_demand_above_the_estimate_is_warned_of_with_its_bottleneck() {
+    let folder = Folder::new();
+    let line = "run MAPS/right_before_left.osm --duration 1 --record 0 --demand";
+    let capacity = number(&folder.summary(&line[4..].replace(" --demand", "")), "entrance_capacity");
+    let told = folder.laneweave(&format!("{line} 4000")).errors();
+    let warning = format!(
+        "warning: demand: 4000 veh/h is above the estimated capacity of {capacity:.0} veh/h (bottleneck: the junction at lanelet \
+         25): queues grow as long as this lasts\n"
+    );
+    assert!(told.ends_with(&warning), "{told}");
+    for quiet in ["900", "4000 --quiet"] {
+        let told = folder.laneweave(&format!("{line} {quiet}")).errors();
+        assert!(!told.contains("demand"), "{told}");
+    }
+}
+
+#[test]
+fn a_demand_that_is_not_given_is_found_again_when_a_run_is_repeated() {
+    let folder = Folder::new();
+    let first = folder.summary("MAPS/ramps.osm --duration 30 --record 0");
+    let again = folder.summary("out/scenario.toml --out again");
+    assert_eq!(again["state_hash"], first["state_hash"]);
+    let told = folder.laneweave(&format!(
+        "run MAPS/ramps.osm --duration 30 --record 0 --demand {} --out given --json",
+        first["demand_veh_h"]
+    ));
+    let given: Value = serde_json::from_str(&told.text()).unwrap();
+    assert_eq!(given["state_hash"], first["state_hash"]);
+}

@@ -1,0 +1,73 @@
+//! Runs that a signal ends.
+
+use std::io::Read;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::command::program::{Folder, maps};
+
+/// A run of some days, which has begun to write its results.
+fn long_run(folder: &Folder, options: &str) -> Child {
+    let line = format!("run {}/ramps.osm --duration 1e6 {options}", maps().display());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_laneweave"));
+    command.args(line.split_whitespace()).current_dir(folder.path());
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while !folder.holds("out/trajectories.csv.partial") && !folder.holds("out/checkpoint") {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    // The signal handler is installed a moment later, at the latest.
+    std::thread::sleep(Duration::from_millis(300));
+    child
+}
+
+fn send(child: &Child, signal: &str) {
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+}
+
+#[test]
+fn ctrl_c_and_a_termination_end_a_run_with_whole_results_and_the_code_of_the_signal() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let folder = Folder::new();
+        let mut child = long_run(&folder, "--json --format csv");
+        send(&child, signal);
+        let mut text = String::new();
+        child.stdout.take().unwrap().read_to_string(&mut text).unwrap();
+        let status = child.wait().unwrap();
+        assert_eq!((status.code(), status.signal()), (Some(code), None));
+        assert_eq!(text, folder.read("out/summary.json"));
+        let summary: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(summary["interrupted"], true);
+        assert!(folder.read("out/trajectories.csv").ends_with('\n'));
+        for file in ["trips.csv", "lanelets.csv", "lane_changes.csv", "report.html"] {
+            assert!(folder.holds(&format!("out/{file}")), "{file}");
+        }
+        let files = std::fs::read_dir(folder.path().join("out")).unwrap();
+        let begun =
+            files.filter(|it| it.as_ref().unwrap().path().extension().is_some_and(|it| it == "partial"));
+        assert_eq!(begun.count(), 0);
+    }
+}
+
+#[test]
+fn a_second_signal_ends_a_run_at_once_with_the_same_code() {
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let folder = Folder::new();
+        let mut child = long_run(&folder, "--quiet --format csv");
+        send(&child, signal);
+        send(&child, signal);
+        assert_eq!(child.wait().unwrap().code(), Some(code));
+    }
+}
+
+#[test]
+fn a_run_that_was_terminated_can_be_resumed() {
+    let folder = Folder::new();
+    let mut child = long_run(&folder, "--checkpoint 20 --quiet");
+    send(&child, "-TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(143));
+    assert!(folder.holds("out/checkpoint") && folder.holds("out/checkpoint.pages"));
+}

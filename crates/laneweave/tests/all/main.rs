@@ -1,0 +1,25 @@
+//! All integration tests of the crate, in one program: it is linked once, and its tests share the cores.
+
+mod an_hour_in_town;
+mod approach;
+mod bad_calls;
+mod capacity;
+mod checkpoint;
+mod crates;
+mod damaged_recordings;
+#[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
+mod examples;
+mod explain;
+mod flows;
+mod hostile_maps;
+mod house;
+mod incidents;
+mod lane_drop;
+mod null_model_control;
+mod recorded_scenes;
+mod replay;
+mod simulated;
+mod simulation;
+mod styles;
+mod turns;
+mod two_entries;

@@ -1,0 +1,12 @@
+//! All integration tests of the crate, in one program: it is linked once, and its tests share the cores.
+
+mod alongside;
+mod cleaning;
+mod commonroad;
+mod datasets;
+mod drawn_twice;
+mod interaction;
+mod interaction_write;
+mod join;
+mod mona_east;
+mod two_lanes;

@@ -1,0 +1,120 @@
+//! No vehicle appears or vanishes, and traffic does not depend on the step.
+
+use crate::roads::{Road, drivers};
+use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_network::Network;
+use laneweave_sim::{Event, Setup, World};
+
+fn world(network: Network, total: f64, step: f64, seed: u64) -> World {
+    let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
+    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
+    World::new(network, driver_parameters, demand, Setup { step, seed, threads: 1 })
+        .expect("the set-up makes sense")
+}
+
+#[test]
+fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_the_road() {
+    let plan = Motorway {
+        lanes: 2,
+        length_m: 3000.0,
+        on_ramp_at: vec![1000.0],
+        off_ramp_at: vec![2000.0],
+        ..Motorway::default()
+    };
+    // More demand than the road's capacity, so that queues grow.
+    let mut world = world(motorway(&plan).unwrap().build().unwrap().network, 7500.0, 0.1, 3);
+    let (mut entered, mut left, mut ids) = (0, 0, std::collections::BTreeSet::new());
+    for _ in 0..6000 {
+        world.step();
+        let counts = world.counts();
+        assert_eq!(world.arrived(), counts.entered + world.waiting() as u64);
+        assert_eq!(counts.entered, counts.left + world.on_road() as u64);
+        for event in world.events() {
+            match event {
+                Event::Entered(vehicle) => {
+                    entered += 1;
+                    assert!(ids.insert(*vehicle), "{vehicle} entered twice");
+                }
+                Event::Left { vehicle, duration, .. } => {
+                    left += 1;
+                    assert!(*duration > 0.0 && ids.remove(vehicle), "{vehicle} left twice");
+                }
+                Event::Removed { vehicle, .. } => panic!("nobody removes {vehicle}"),
+                Event::LaneChange(_) | Event::Incident(_) | Event::Driving(_) => {}
+            }
+        }
+        assert_eq!((entered, left), (counts.entered, counts.left));
+        assert_eq!(ids.len(), world.on_road());
+        assert!(world.vehicles().all(|it| ids.contains(&it.id())));
+    }
+    assert!(world.waiting() > 50 && left > 300);
+}
+
+#[test]
+fn distances_and_trip_times_add_up_to_what_the_trajectories_say() {
+    const LENGTH: f64 = 1500.0;
+    let mut world = world(Road { lanes: 2, length: LENGTH, ..Road::default() }.network(), 1500.0, 0.1, 4);
+    let (mut updates, mut distance, mut durations) = (0, 0.0, 0.0);
+    for _ in 0..3000 {
+        let before: std::collections::BTreeMap<u32, f64> =
+            world.vehicles().map(|it| (it.id(), it.x())).collect();
+        updates += before.len() as u64;
+        world.step();
+        let after: std::collections::BTreeMap<u32, f64> =
+            world.vehicles().map(|it| (it.id(), it.x())).collect();
+        distance += before.iter().filter_map(|(id, x)| after.get(id).map(|it| it - x)).sum::<f64>();
+        durations += world
+            .events()
+            .iter()
+            .map(|it| if let Event::Left { duration, .. } = it { *duration } else { 0.0 })
+            .sum::<f64>();
+    }
+    let counters = world.counters();
+    assert_eq!(counters.updates, updates);
+    // The last step of a completed trip ends beyond the road.
+    let last_steps = counters.distance - distance;
+    assert!(last_steps > 0.0 && last_steps < 5.0 * world.counts().left as f64, "{last_steps} m");
+    assert_eq!(world.counts().trip_time, durations);
+}
+
+/// Number of seeds. Flows of single seeds spread by 2 %; this many distinguish means that differ by 1 %.
+const SEEDS: u64 = 60;
+
+/// Flow [veh/h] of saturated roads of two lanes, and the numbers of lane changes, one for each seed.
+fn saturated(step: f64) -> (f64, Vec<f64>) {
+    const WARM_UP: f64 = 300.0;
+    const HOURS: f64 = 0.5;
+    let mut left = 0;
+    let mut rates = Vec::new();
+    for seed in 0..SEEDS {
+        let mut world =
+            world(Road { lanes: 2, length: 3000.0, ..Road::default() }.network(), 6000.0, step, seed);
+        (0..(WARM_UP / step) as u32).for_each(|_| world.step());
+        world.reset_counts();
+        (0..(3600.0 * HOURS / step) as u32).for_each(|_| world.step());
+        left += world.counts().left;
+        rates.push(1000.0 * world.counts().discretionary_changes as f64 / world.counters().distance);
+        assert!(world.waiting() > 0);
+    }
+    (left as f64 / (HOURS * SEEDS as f64), rates)
+}
+
+/// Mean, and the half-width of its 95 % confidence interval (Student, 59 degrees of freedom).
+fn mean_of_seeds(values: &[f64]) -> (f64, f64) {
+    const STUDENT: f64 = 2.001;
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    (mean, STUDENT * (variance / n).sqrt())
+}
+
+#[test]
+fn v25_half_the_step_changes_neither_flow_nor_lane_change_rate() {
+    let ((coarse, coarse_rates), (fine, fine_rates)) = std::thread::scope(|scope| {
+        let fine = scope.spawn(|| saturated(0.05));
+        (saturated(0.1), fine.join().expect("no panic"))
+    });
+    assert!((coarse - fine).abs() < 0.01 * fine, "flows {coarse} and {fine} veh/h");
+    let ((one, width), (other, other_width)) = (mean_of_seeds(&coarse_rates), mean_of_seeds(&fine_rates));
+    assert!((one - other).abs() < width.hypot(other_width), "{one} ± {width} and {other} ± {other_width}");
+}

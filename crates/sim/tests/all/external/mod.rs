@@ -1,0 +1,14 @@
+//! External vehicles: a user drives them in the traffic of simulated drivers.
+
+mod abuse;
+mod closed_lanes;
+mod commands;
+mod courtesy;
+mod identity;
+mod lanes;
+mod parameters;
+mod poses;
+mod recorded;
+mod struck;
+mod worlds;
+mod yielding;
