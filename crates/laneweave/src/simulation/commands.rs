@@ -137,8 +137,8 @@ impl Simulation {
         self.command(&place, command)
     }
 
-    /// The same, in place of the commands that wait for the next step and contradict it: one of its kind for the same thing,
-    /// and all others for a vehicle that is to be removed. For sliders that move while time stands.
+    /// The same, in place of the commands that wait for the next step and contradict it: one of its kind for the same
+    /// thing, and all others for a vehicle that is to be removed. For sliders that move while time stands.
     ///
     /// # Errors
     /// If it is not possible. Nothing changes then.

@@ -21,8 +21,8 @@ impl Simulation {
         vehicles
     }
 
-    /// The vehicles on the road without copies, lane by lane and in driving order: for programs that look at all of them
-    /// after every step.
+    /// The vehicles on the road without copies, lane by lane and in driving order: for programs that look at all of
+    /// them after every step.
     pub fn views(&self) -> impl Iterator<Item = Vehicle<'_>> {
         self.world().vehicles()
     }

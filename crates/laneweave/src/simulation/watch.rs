@@ -49,8 +49,8 @@ impl Simulation {
         Boxes::new(self.world(), begin, duration)
     }
 
-    /// The vehicles over time on up to `number` slow lanes without a common part, those with the largest expected distance
-    /// driven first, from now on for `duration` [s].
+    /// The vehicles over time on up to `number` slow lanes without a common part, those with the largest expected
+    /// distance driven first, from now on for `duration` [s].
     pub fn traces(&self, number: usize, duration: f64) -> Vec<Traces> {
         Traces::most_driven(number, self.world(), &self.prepared.origins, self.time_s(), duration)
     }

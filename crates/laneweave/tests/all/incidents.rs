@@ -71,7 +71,10 @@ impl Run {
     }
 
     fn report(&self) -> String {
-        fs::read_to_string(self.scenario.output.dir.join("report.html")).expect("the report is there")
+        let dir = &self.scenario.output.dir;
+        let text = fs::read_to_string(dir.join("report.html")).expect("the report is there");
+        // The name of the folder is all in which two runs may differ.
+        text.replace(&dir.display().to_string(), "out")
     }
 
     fn table(&self) -> String {

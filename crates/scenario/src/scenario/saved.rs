@@ -29,8 +29,8 @@ impl Prepared {
         Ok(())
     }
 
-    /// Draws the drivers anew from `mixture`, with the random numbers of `seed`, with which they were drawn before: each
-    /// keeps its place, and goes on with what it is doing.
+    /// Draws the drivers anew from `mixture`, with the random numbers of `seed`, with which they were drawn before:
+    /// each keeps its place, and goes on with what it is doing.
     ///
     /// # Errors
     /// If `mixture` has not the styles of the scenario, or a distribution gives an invalid value.

@@ -23,8 +23,8 @@ impl Commands {
         self.waiting.push(Commanded { step, vehicle, command });
     }
 
-    /// Takes back the commands that wait and that `command` replaces: those of its kind for the same thing, and all for a
-    /// vehicle that is to be removed.
+    /// Takes back the commands that wait and that `command` replaces: those of its kind for the same thing, and all for
+    /// a vehicle that is to be removed.
     pub(crate) fn withdraw(&mut self, command: &Command) {
         let Some(target) = command.target() else { return };
         let is_all = matches!(command, Command::Remove(_));

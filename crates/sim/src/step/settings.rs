@@ -118,8 +118,8 @@ impl World {
         self.waiting_command(|it| (*it == Command::Remove(id)).then_some(())).is_some()
     }
 
-    /// Gives a command as [`World::command`] does, in place of those that wait for the next step and contradict it: one of
-    /// its kind for the same thing, and all others for a vehicle that is to be removed.
+    /// Gives a command as [`World::command`] does, in place of those that wait for the next step and contradict it: one
+    /// of its kind for the same thing, and all others for a vehicle that is to be removed.
     ///
     /// # Errors
     /// If it is impossible. Nothing changes then.
