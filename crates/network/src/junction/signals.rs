@@ -135,17 +135,25 @@ impl SignalPlan {
 }
 
 /// The pairs of lights that conflict.
-pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightConflict> {
+pub(super) struct Conflicts {
+    pub(super) found: Vec<LightConflict>,
+    /// Number of pairs that were compared.
+    comparisons: u64,
+}
+
+/// The pairs of lights that conflict.
+pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Conflicts {
     between(junctions, &fields(network, junctions))
 }
 
 /// The plans for lights without a program. Cycle 60 s; groups without conflicts follow each other in the order of
 /// ids; yellow 3 s; all red for the clearance distance at 8 m/s, at least 2 s. The groups share the rest as green in
-/// equal parts.
-pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<SignalPlan> {
+/// equal parts. With them comes the number of pairs of lights that were compared.
+pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> (Vec<SignalPlan>, u64) {
     let mut plans = Vec::new();
     let fields = fields(network, junctions);
-    let rivals = rivals(fields.len(), &between(junctions, &fields));
+    let Conflicts { found, comparisons } = between(junctions, &fields);
+    let rivals = rivals(fields.len(), &found);
     for members in junctions_of(&rivals) {
         let groups = groups(&members, &rivals);
         if groups.len() < 2 {
@@ -163,7 +171,7 @@ pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<Signal
         };
         plans.push(SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() });
     }
-    plans
+    (plans, comparisons)
 }
 
 /// What lies behind each light.
@@ -188,7 +196,7 @@ pub(super) fn lit_sides(network: &Network, junctions: &Junctions) -> Vec<[bool; 
     is_lit
 }
 
-fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
+fn between(junctions: &Junctions, fields: &[Field]) -> Conflicts {
     let is_ordered = |zone: u32| matches!(junctions.zones[zone as usize].precedence, Precedence::Side(_));
     // The lights whose drivers reach each side of each zone.
     let mut reaching: Vec<[Vec<usize>; 2]> = vec![Default::default(); junctions.zones.len()];
@@ -205,13 +213,14 @@ fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
             is_ordered: is_ordered(zone),
         })
     };
-    let mut all = Vec::new();
+    let (mut found, mut comparisons) = (Vec::new(), 0);
     for a in 0..fields.len() {
         let opposite = |it: &(u32, u8)| &reaching[it.0 as usize][usize::from(1 - it.1)];
         let others: BTreeSet<usize> = fields[a].zones.iter().flat_map(opposite).copied().collect();
-        all.extend(others.range(a + 1..).filter_map(|b| conflict(a, *b)));
+        comparisons += others.len() as u64;
+        found.extend(others.range(a + 1..).filter_map(|b| conflict(a, *b)));
     }
-    all
+    Conflicts { found, comparisons }
 }
 
 /// For each of so many lights those that conflict with it, in order.

@@ -56,10 +56,7 @@ impl Lanes<'_> {
 
     /// The load of the lanes at the last place at which some vehicles have to leave one of them; none before a light,
     /// where there is time for this at red.
-    fn load_by_changes(
-        &self,
-        Change { from: (chain, [start, last_place]), .. }: &Change,
-    ) -> Option<Load> {
+    fn load_by_changes(&self, Change { from: (chain, [start, last_place]), .. }: &Change) -> Option<Load> {
         /// Distance from the place to where lanes are still side by side, and to where all vehicles have changed [m].
         const SHORTLY: f64 = 0.5;
         let before = last_place - SHORTLY;

@@ -53,7 +53,7 @@ pub(super) fn demand(
 
 impl super::Demand {
     /// The classes of its vehicles.
-    pub(super) fn fleet(&self) -> Fleet {
+    pub(crate) fn fleet(&self) -> Fleet {
         Fleet { trucks: self.trucks, buses: self.buses, motorcycles: self.motorcycles }
     }
 }
