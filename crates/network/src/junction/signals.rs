@@ -214,9 +214,9 @@ fn between(junctions: &Junctions, fields: &[Field]) -> Conflicts {
         })
     };
     let (mut found, mut comparisons) = (Vec::new(), 0);
-    for a in 0..fields.len() {
+    for (field, a) in fields.iter().zip(0..) {
         let opposite = |it: &(u32, u8)| &reaching[it.0 as usize][usize::from(1 - it.1)];
-        let others: BTreeSet<usize> = fields[a].zones.iter().flat_map(opposite).copied().collect();
+        let others: BTreeSet<usize> = field.zones.iter().flat_map(opposite).copied().collect();
         comparisons += others.len() as u64;
         found.extend(others.range(a + 1..).filter_map(|b| conflict(a, *b)));
     }

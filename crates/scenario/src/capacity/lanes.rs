@@ -11,7 +11,6 @@ const BESIDE: f64 = 20.0;
 /// The loads of lanes: at the start of each part that is used and of each limit, and at each light. Vehicles that may
 /// use several lanes side by side fill them together; vehicles that need one lane fill it alone.
 pub(super) fn loads(roads: &Roads) -> Vec<Load> {
-    let lanes = Lanes { roads };
     let mut loads = Vec::new();
     for chain in roads.chains() {
         let here = roads.network.chain(chain);
@@ -21,24 +20,20 @@ pub(super) fn loads(roads: &Roads) -> Vec<Load> {
         let mut stations: Vec<f64> = starts.chain(limits).chain(stops).collect();
         stations.sort_by(f64::total_cmp);
         stations.dedup();
-        loads.extend(stations.into_iter().map(|it| lanes.load(chain, it)));
+        loads.extend(stations.into_iter().map(|it| roads.load(chain, it)));
     }
-    loads.extend(roads.assignment.changes.iter().filter_map(|it| lanes.load_by_changes(it)));
+    loads.extend(roads.assignment.changes.iter().filter_map(|it| roads.load_by_changes(it)));
     loads
 }
 
-struct Lanes<'a> {
-    roads: &'a Roads<'a>,
-}
-
-impl Lanes<'_> {
+impl Roads<'_> {
     /// The load of the lanes at a station of a chain [m].
     fn load(&self, chain: ChainIndex, station: f64) -> Load {
-        let [bound, all] = self.roads.assignment.flow(chain, station);
+        let [bound, all] = self.assignment.flow(chain, station);
         let (capacity, light) = self.capacity(chain, station);
         let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
         for Position { chain: beside, x: at } in self.beside(chain, station, light.is_some()) {
-            let [_, flow] = self.roads.assignment.flow(beside, at);
+            let [_, flow] = self.assignment.flow(beside, at);
             // A lane that ends soon, or leads elsewhere, has no flow.
             if flow > 0.0 {
                 flows += flow;
@@ -47,9 +42,9 @@ impl Lanes<'_> {
             }
         }
         if light.is_none() {
-            capacities *= self.roads.queues.left(lanes, self.roads.network.chain(chain).limit(station));
+            capacities *= self.queues.left(lanes, self.network.chain(chain).limit(station));
         }
-        let lanelet = self.roads.lanelet(chain, station);
+        let lanelet = self.lanelet(chain, station);
         let of = light.map_or(Bottleneck::Lanes(lanelet), |light| Bottleneck::Light { light, lanelet });
         Load { share: (bound / capacity).max(flows / capacities), of }
     }
@@ -68,7 +63,7 @@ impl Lanes<'_> {
         let lanes: Vec<Position> = std::iter::once(Position::new(*chain, before)).chain(beside).collect();
         let (mut flows, mut capacities, mut number, mut fullest) = (0.0, 0.0, 0, 0.0_f64);
         for Position { chain: lane, x: at } in &lanes {
-            let [bound, flow] = self.roads.assignment.flow(*lane, at + 2.0 * SHORTLY);
+            let [bound, flow] = self.assignment.flow(*lane, at + 2.0 * SHORTLY);
             if flow > 0.0 {
                 let capacity = self.capacity(*lane, *at).0;
                 flows += flow;
@@ -79,32 +74,32 @@ impl Lanes<'_> {
                 }
             }
         }
-        capacities *= self.roads.queues.left(number, self.roads.network.chain(*chain).limit(before));
-        let left = weaving::left(self.roads.assignment, &lanes, flows, last_place - start);
-        let of = Bottleneck::Lanes(self.roads.lanelet(*chain, before));
+        capacities *= self.queues.left(number, self.network.chain(*chain).limit(before));
+        let left = weaving::left(self.assignment, &lanes, flows, last_place - start);
+        let of = Bottleneck::Lanes(self.lanelet(*chain, before));
         (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
     }
 
     /// Whether a lane soon parts from all lanes beside it, beyond a station [m]: vehicles that need it have to be on
     /// it already.
     fn parts_soon(&self, chain: ChainIndex, station: f64) -> bool {
-        let here = self.roads.network.chain(chain);
+        let here = self.network.chain(chain);
         let ends = Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).map(|it| it.end);
         ends.fold(station, f64::max) < station + TAKES_LANE_WITHIN
     }
 
     /// The flow at a station of a chain [veh/s], and the light there.
     fn capacity(&self, chain: ChainIndex, station: f64) -> (f64, Option<i64>) {
-        let network = self.roads.network;
+        let network = self.network;
         let limit = network.chain(chain).limit(station);
         let stops = network.junctions.on(chain).stops.iter();
         let mut near = stops.filter(|it| (it.station - station).abs() < BESIDE);
         let light = near.find_map(|it| if let Sign::Light(light) = it.sign { Some(light) } else { None });
         let Some(light) = light else {
-            return (self.roads.queues.stream(limit, 0.0), None);
+            return (self.queues.stream(limit, 0.0), None);
         };
         let Light { id, program, .. } = &network.junctions.lights[light.at()];
-        (self.roads.queues.through(program, limit), Some(*id))
+        (self.queues.through(program, limit), Some(*id))
     }
 
     /// The lanes to which vehicles may change at a station of a chain [m], or shortly before a light there, each with
@@ -112,7 +107,7 @@ impl Lanes<'_> {
     fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<Position> {
         /// Length without lane changes before a light [m].
         const BEFORE_A_LIGHT: f64 = 100.0;
-        let network = self.roads.network;
+        let network = self.network;
         let since = |x: f64| if is_at_light { x - BEFORE_A_LIGHT } else { x };
         let mut found = vec![Position::new(chain, station)];
         let mut number = 0;

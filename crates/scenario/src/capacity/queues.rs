@@ -83,18 +83,16 @@ impl Known {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
-    use laneweave_maps::Map;
     use laneweave_maps::generate::{Grid, grid};
 
+    use super::super::{Roads, lanes};
     use super::*;
     use crate::scenario::{Origin, Prepared, Scenario, prepare_on};
 
     /// A grid with so many streets in each direction, ready to run with a demand that is given.
     fn prepared(streets: usize) -> Prepared {
         let wanted = Grid { rows: streets, columns: streets, ..Grid::default() };
-        let map: Map = grid(&wanted).unwrap().build().unwrap();
+        let map = grid(&wanted).unwrap().build().unwrap();
         let mut scenario = Scenario::of_map("grid.osm".into());
         scenario.demand.vehicles_per_hour = Some(1000.0);
         prepare_on(map, &scenario, &Origin::default()).unwrap()
@@ -105,13 +103,8 @@ mod tests {
         let counts = [2, 4].map(|streets| {
             let Prepared { world, .. } = prepared(streets);
             let queues = Queues::new(&[(world.driver_parameters()[0].clone(), 1.0)], Fleet::default());
-            let network: Arc<_> = world.shared_network();
-            let roads = super::super::Roads {
-                network: &network,
-                assignment: &world.assignment([0.0, 1.0]),
-                queues: &queues,
-            };
-            super::super::lanes::loads(&roads);
+            let (network, assignment) = (world.network(), &world.assignment([0.0, 1.0]));
+            lanes::loads(&Roads { network, assignment, queues: &queues });
             [&queues.streams, &queues.greens, &queues.beside].map(|it| it.0.borrow().len())
         });
         assert!(counts[0][1] > 0 && counts[0] == counts[1], "{counts:?}");
