@@ -2,7 +2,7 @@
 //
 //   xvfb-run -a node drive.mjs PROGRAM [NAME...]
 //
-// Pictures go to shots/. Maps and recordings in the folder DATA, or else beside the project, are used if they are there.
+// Pictures go to shots/. Maps and recordings in the folder LANEWEAVE_DATA, or else beside the project, are used if they are there.
 
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
 import os from 'node:os';
@@ -20,7 +20,7 @@ import * as visits from './visits.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const home = path.join(here, '../..');
-const data = process.env.DATA ?? path.join(home, '../shared/data');
+const data = process.env.LANEWEAVE_DATA ?? path.join(home, '../shared/data');
 const [program, ...names] = process.argv.slice(2);
 if (!program) throw new Error('give the program: node drive.mjs PROGRAM');
 
