@@ -80,7 +80,7 @@ function missing(all, summary) {
   const wanted = summary.collisions + summary.overlaps > 0 ? [...ALWAYS, COLLISIONS] : ALWAYS;
   const wrong = wanted.filter((it) => !titles.includes(it)).map((it) => `no figure “${it}”`);
   if (titles.length !== new Set(titles).size) wrong.push(`two figures of one title: ${titles}`);
-  const changes = summary.lane_changes_discretionary + summary.lane_changes_route;
+  const changes = summary.lane_changes_discretionary + summary.lane_changes_route_driven;
   for (const { title, size, roads, lanes, marks, shapes } of all) {
     const isEmpty = Math.min(...size) < 50 || shapes === 0
       || (title.endsWith('on the map') && roads === 0)

@@ -1,4 +1,8 @@
 //! Junctions: where chains conflict, which has priority, and where drivers stop.
+//!
+//! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zone.rs`), who has
+//! priority in each (`precedence.rs`), where drivers stop (`on_chain.rs`), where they turn (`turning.rs`), and the
+//! signal programs (`light.rs`, `signals.rs`). Who holds which zone is the simulator's.
 
 mod contact;
 mod kinship;
