@@ -2,13 +2,14 @@
 //
 //   xvfb-run -a node drive.mjs PROGRAM [NAME...]
 //
-// Pictures go to shots/. Maps and recordings in the folder LANEWEAVE_DATA, or else beside the project, are used if they are there.
+// Pictures go to shots/. LANEWEAVE_DATA names the folder of real maps and recordings.
 
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { open } from './browser.mjs';
+import { dataFolder } from './data.mjs';
 import * as many from './many.mjs';
 import * as hands from './hands.mjs';
 import * as looks from './looks.mjs';
@@ -20,13 +21,13 @@ import * as visits from './visits.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const home = path.join(here, '../..');
-const data = process.env.LANEWEAVE_DATA ?? path.join(home, '../shared/data');
 const [program, ...names] = process.argv.slice(2);
 if (!program) throw new Error('give the program: node drive.mjs PROGRAM');
 
+const data = dataFolder(home);
 const browser = await open();
 const folder = mkdtempSync(path.join(os.tmpdir(), 'laneweave-view-'));
-const around = { browser, program: path.resolve(program), home, folder, shots: path.join(here, 'shots'), data: existsSync(data) ? data : null };
+const around = { browser, program: path.resolve(program), home, folder, shots: path.join(here, 'shots'), data };
 let failed = 0;
 for (const [name, test] of Object.entries({ ...looks, ...hands, ...road, ...replays, ...twins, ...visits, ...reports, ...many })) {
   if (names.length > 0 && !names.includes(name)) continue;

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
+import { mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { page } from './browser.mjs';
@@ -26,11 +26,9 @@ function sources({ home, data }) {
   if (!data) return own;
   const within = ['lanelet2', 'minimal'].flatMap((it) => {
     const folder = path.join(data, it);
-    if (!existsSync(folder)) return [];
     return readdirSync(folder).filter((file) => file.endsWith('.osm')).map((file) => path.join(folder, file));
   });
-  const recorded = [path.join(data, 'recordings/mona_east/map.osm')].filter((it) => existsSync(it));
-  return [...own, ...within, ...recorded];
+  return [...own, ...within, path.join(data, 'recordings/mona_east/map.osm')];
 }
 
 /** A name for what is made of a source. */

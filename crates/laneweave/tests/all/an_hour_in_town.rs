@@ -1,18 +1,12 @@
 //! An hour on real maps with a demand above their capacity: nobody is stuck, and traffic keeps moving.
 
-use std::path::Path;
-
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 use laneweave_sim::World;
+use laneweave_test_data::data;
 
-/// The vehicles after an hour at 1,500 veh/h on a map of the shared data, if it is available; no vehicle was stuck.
+/// The vehicles after an hour at 1,500 veh/h on a map of the real data, if this machine has it; no vehicle was stuck.
 fn an_hour(map: &str, seed: u64) -> Option<World> {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/lanelet2").join(map);
-    if !map.exists() {
-        eprintln!("skipped: {} is not there", map.display());
-        return None;
-    }
-    let mut scenario = Scenario::of_map(map);
+    let mut scenario = Scenario::of_map(data(&format!("lanelet2/{map}"))?);
     scenario.run.seed = seed;
     scenario.demand.vehicles_per_hour = Some(1500.0);
     let mut world = prepare(&scenario, &Origin::default()).expect("the map is sound").world;

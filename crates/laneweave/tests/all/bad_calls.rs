@@ -1,17 +1,13 @@
 //! Bad calls of the library are errors that say what to do. No call panics.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 use laneweave::{
     Class, Columns, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
     Simulation, VehicleId,
 };
 use laneweave_scenario::scenario::Demand;
-
-fn map(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
-}
+use laneweave_test_data::map;
 
 fn simulation(name: &str, vehicles_per_hour: f64) -> Simulation {
     let builder = Simulation::builder(map(name)).vehicles_per_hour(vehicles_per_hour).threads(1);

@@ -1,7 +1,6 @@
 //! A world that is saved and restored continues bit for bit, from any time and on any number of threads.
 
 use std::num::NonZero;
-use std::path::Path;
 
 use laneweave_scenario::scenario::{MadeSignals, Origin, Scenario, prepare};
 use laneweave_sim::{CheckpointError, World};
@@ -13,7 +12,7 @@ fn world(map: &str, demand: f64, threads: usize) -> World {
 }
 
 fn scenario(map: &str, demand: f64, threads: usize) -> Scenario {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
+    let map = laneweave_test_data::map(map);
     let mut scenario = Scenario::of_map(map);
     scenario.demand.vehicles_per_hour = Some(demand);
     scenario.demand.trucks = 0.2;

@@ -7,7 +7,7 @@ use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
 const LEVELS: [&[&str]; 11] = [
-    &["network", "models", "study"],
+    &["network", "models", "study", "test-data"],
     &["maps", "sim"],
     &["recordings"],
     &["calibration"],

@@ -1,7 +1,6 @@
 //! The table `flows` agrees with the distances that vehicles drove.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use laneweave::Simulation;
 use laneweave::run::Run;
@@ -10,7 +9,7 @@ use laneweave_scenario::scenario::{Origin, Scenario, TableFormat};
 /// Time of all vehicles on the lanelets [s], and their distance there [m], from the rows of the table; the same from
 /// the summary; and the number of completed trips.
 fn totals(map: &str, demand: f64, every: u32) -> ([f64; 2], [f64; 2], f64) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
+    let path = laneweave_test_data::map(map);
     let mut scenario = Scenario::of_map(path);
     scenario.demand.vehicles_per_hour = Some(demand);
     (scenario.run.warmup_s, scenario.run.duration_s) = (60.0, 200.0);

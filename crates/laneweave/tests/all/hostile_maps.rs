@@ -5,6 +5,7 @@ use std::path::Path;
 use laneweave::maps::{generate, lanelet2};
 use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare};
 use laneweave_sim::World;
+use laneweave_test_data::data;
 
 /// The world of a map file with this seed and this demand [veh/h], or with `share` of its estimated capacity if that
 /// is less, with audit.
@@ -32,14 +33,9 @@ fn drive(world: &mut World, seconds: u32, name: &str) {
     assert!(missed <= 0.02, "{name}: {missed}");
 }
 
-/// A minimal map of the shared data, if available.
+/// A minimal map of the real data, if this machine has them.
 fn minimal(name: &str) -> Option<std::path::PathBuf> {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/minimal");
-    if !data.exists() {
-        eprintln!("skipped: {} is not there", data.display());
-        return None;
-    }
-    Some(data.join(format!("{name}.osm")))
+    data(&format!("minimal/{name}.osm"))
 }
 
 /// An hour on minimal maps.

@@ -2,7 +2,7 @@
 //! the summary.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use laneweave::Simulation;
@@ -23,7 +23,7 @@ impl Run {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let dir = std::env::temp_dir().join(format!("laneweave-incidents-{}-{number}", std::process::id()));
         fs::create_dir_all(&dir).expect("a folder");
-        let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/motorway_2_lanes.osm");
+        let map = laneweave_test_data::map("motorway_2_lanes.osm");
         let mut scenario = Scenario::of_map(map);
         scenario.demand.vehicles_per_hour = Some(0.0);
         scenario.run.duration_s = 30.0;

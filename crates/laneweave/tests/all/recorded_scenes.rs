@@ -1,23 +1,18 @@
 //! The perceptions of drivers on a real road, if the recording is available.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use laneweave::style::Population;
 use laneweave_maps::{Map, ReadOptions, load};
 use laneweave_network::Side;
 use laneweave_recordings::{Assumed, Matched, Replay, clean, interaction, lane_changes};
 use laneweave_sim::{Navigator, Waypoint};
-
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/mona_east/");
+use laneweave_test_data::data;
 
 #[test]
 fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
-    let folder = Path::new(DATA);
-    let Ok(bytes) = std::fs::read(folder.join("vehicle_tracks_000.csv")) else {
-        eprintln!("skipped: the recording is not there");
-        return;
-    };
+    let Some(folder) = data("recordings/mona_east") else { return };
+    let bytes = std::fs::read(folder.join("vehicle_tracks_000.csv")).expect("it can be read");
     let options = ReadOptions { origin: Some((0.0, 0.0)), ..ReadOptions::default() };
     let Map { network, .. } = load(&folder.join("map.osm_xy"), &options).expect("the map is sound");
     let (recording, _) = interaction::read(&bytes).expect("the tracks are sound");

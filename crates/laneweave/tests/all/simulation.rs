@@ -1,7 +1,6 @@
 //! The simulation in the words of the road tells what the world behind it holds.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::{
@@ -11,7 +10,7 @@ use laneweave::{
 use laneweave_scenario::scenario::{Demand, Origin, Scenario, prepare};
 
 fn builder(map: &str, vehicles_per_hour: f64) -> laneweave::Builder {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
+    let map = laneweave_test_data::map(map);
     Simulation::builder(map).vehicles_per_hour(vehicles_per_hour).threads(1)
 }
 

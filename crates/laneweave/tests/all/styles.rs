@@ -17,7 +17,7 @@ const STEP_S: f64 = 0.1;
 const STEPS_PER_SECOND: u32 = 10;
 
 fn own_map(name: &str) -> Network {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name);
+    let path = laneweave_test_data::map(name);
     load(&path, &ReadOptions::default()).expect("the map is sound").network
 }
 

@@ -1,14 +1,14 @@
 //! Turning shares: drivers follow the turning counts of junctions.
 
 use std::f64::consts::FRAC_PI_6;
-use std::path::Path;
 
 use laneweave::network::{Gate, Network, Sections};
 use laneweave_scenario::scenario::{Origin, Prepared, Scenario, Turns, VehiclesPerHour, prepare};
 use laneweave_sim::Event;
+use laneweave_test_data::data;
 
 fn scenario(map: &str, turns: &[Turns]) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
+    let path = laneweave_test_data::map(map);
     Scenario { turns: turns.to_vec(), ..Scenario::of_map(path) }
 }
 
@@ -170,13 +170,9 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
 fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where_it_leads() {
     // From -101121 beside it there is no route to the left: the scenario is refused unless there is another
     // destination, or no demand.
-    let map = "../../shared/data/lanelet2/tianjin.osm";
     let turns = Turns { from: -101_122, left: 1.0, straight: 0.0, right: 0.0 };
-    let mut scenario = scenario(map, &[turns]);
-    if !scenario.map.exists() {
-        eprintln!("skipped: {map} is not there");
-        return;
-    }
+    let Some(map) = data("lanelet2/tianjin.osm") else { return };
+    let mut scenario = Scenario { turns: vec![turns], ..Scenario::of_map(map) };
     let fault = prepare(&scenario, &Origin::default()).err().expect("refused");
     let what = "no lane leads from the entrance -101121 to the destinations of these shares";
     assert_eq!((fault.place.as_str(), fault.what.as_str()), ("turns", what));

@@ -1,14 +1,12 @@
 //! A vehicle between two lanes has an entry in both. They are one vehicle: they move alike at every step.
 
-use std::path::Path;
-
 use laneweave::style::BUILT_IN;
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 
 #[test]
 fn both_entries_of_a_vehicle_in_a_lane_change_move_alike() {
     for map in ["ramps.osm", "motorway_3_lanes.osm", "town.osm"] {
-        let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map);
+        let map = laneweave_test_data::map(map);
         let mut scenario = Scenario::of_map(map);
         scenario.styles = BUILT_IN.iter().map(|it| (it.name.to_owned(), 1.0)).collect();
         scenario.demand.vehicles_per_hour = Some(4500.0);

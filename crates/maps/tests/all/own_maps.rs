@@ -1,17 +1,13 @@
 //! The maps in the folder `maps`; and generated drawings, which are the same after writing and reading.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
 use laneweave_maps::generate::{
     Control, Grid, Motorway, approach, grid, motorway, own_maps, roundabout, town,
 };
 use laneweave_maps::{Drawing, Law, Map, ReadOptions, Rule, check, lanelet2, load};
 use laneweave_network::{DrivingSide, Gate};
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps")
-}
+use laneweave_test_data::maps;
 
 /// A drawing of every kind.
 fn drawings(driving_side: DrivingSide) -> Vec<Drawing> {
@@ -40,7 +36,7 @@ fn drawings(driving_side: DrivingSide) -> Vec<Drawing> {
 #[test]
 fn the_files_are_what_the_generator_draws() {
     for (name, drawing) in own_maps().unwrap() {
-        let file = fs::read_to_string(folder().join(name)).unwrap();
+        let file = fs::read_to_string(maps().join(name)).unwrap();
         let drawn = lanelet2::write(&drawing);
         assert!(file == drawn, "{name} differs; run `cargo run -p laneweave-maps --example own_maps`");
         assert!(file.len() < 1_000_000, "{name} has {} bytes", file.len());
@@ -52,7 +48,7 @@ fn the_files_have_the_entrances_exits_and_drops_they_are_named_after() {
     let mut found = Vec::new();
     for (name, _) in own_maps().unwrap() {
         let Map { network, problems, origin, .. } =
-            load(&folder().join(name), &ReadOptions::default()).unwrap();
+            load(&maps().join(name), &ReadOptions::default()).unwrap();
         assert!(problems.is_empty() && origin.is_none());
         assert_eq!(check(&network), [], "{name}");
         let lanes = |gates: &[Gate]| gates.iter().map(|it| it.chains.len()).collect::<Vec<_>>();

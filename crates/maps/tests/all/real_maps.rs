@@ -1,20 +1,12 @@
 //! Real maps, if they are available: counts that agree with those of the reference library.
 
-use std::path::Path;
-
 use laneweave_maps::lanelet2::{self, Document};
 use laneweave_maps::{Map, ReadOptions, Rule, load};
 use laneweave_network::Lanelet;
-
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
+use laneweave_test_data::data;
 
 fn read(file: &str) -> Option<Map> {
-    let path = Path::new(DATA).join(file);
-    if !path.exists() {
-        eprintln!("skipped: {file} is not there");
-        return None;
-    }
-    Some(load(&path, &ReadOptions::default()).expect("the map is sound"))
+    Some(load(&data(file)?, &ReadOptions::default()).expect("the map is sound"))
 }
 
 /// Lanelets for cars, pairs that follow, left and right changes, left and right neighbours without changes, conflicts
@@ -63,7 +55,8 @@ fn graphs_agree_with_the_reference_library() {
 #[test]
 fn a_map_that_is_written_and_read_again_is_the_same() {
     for (file, _) in MAPS {
-        let Ok(bytes) = std::fs::read(Path::new(DATA).join(file)) else { continue };
+        let Some(path) = data(file) else { continue };
+        let bytes = std::fs::read(path).expect("it can be read");
         let (document, problems) = Document::parse(&bytes).unwrap();
         let text = document.write();
         let map = document.map(problems, &ReadOptions::default()).unwrap();

@@ -1,6 +1,7 @@
 //! The decision: yields weighted and combined, the rules, and what must never sway them.
 
-use crate::situations::{LENGTH, ON_ROUTE, behind, driver, empty_road};
+use crate::near::assert_near;
+use crate::situations::{LENGTH, LITERAL_FVDM, ON_ROUTE, behind, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
@@ -9,20 +10,6 @@ use laneweave_models::change::{
     expected_time,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
-
-static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
-    sensitivity: 0.41,
-    relative_sensitivity: 0.5,
-    range: 100.0,
-    jam_gap: 0.0,
-    length_scale: 1.0,
-    reading: Literal,
-});
 
 /// Weights μ₁…μ₄ and β of the paper's table.
 const AGGRESSIVE: ([f64; 4], f64) = ([1.26, 0.58, 0.03, 0.61], 1.1);

@@ -1,14 +1,10 @@
 //! The lateral motion, and headway relaxation around a lane change.
 
+use crate::near::assert_near;
 use laneweave_models::lateral::{
     Crossing, LateralModel, moved_share, peak_lateral_acceleration, peak_lateral_speed,
 };
 use laneweave_models::{Attention, Manner};
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
 
 /// Lane width [m] and duration [s] of the worked change.
 const WIDTH: f64 = 3.5;

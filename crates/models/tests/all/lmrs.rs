@@ -1,5 +1,6 @@
 //! LMRS: points with exact reference values, and the effects of the desire.
 
+use crate::near::assert_near;
 use crate::situations::{ON_ROUTE, behind, driver, empty_road};
 use laneweave_models::Manner;
 use laneweave_models::change::{
@@ -14,11 +15,6 @@ static IDM: FollowingModel = FollowingModel::Idm(Idm {
     jam_gap: 3.0,
     exponent: 4.0,
 });
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
 
 /// d for a side.
 fn desire(model: Lmrs, situation: &Situation) -> f64 {

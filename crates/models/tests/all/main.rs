@@ -9,6 +9,7 @@ mod lateral;
 mod link_time;
 mod lmrs;
 mod mobil;
+mod near;
 mod returning;
 mod safety;
 mod situations;

@@ -1,6 +1,7 @@
 //! MOBIL: its criterion with exact reference values, in symmetric and in European traffic, and the two ways to follow
 //! a route.
 
+use crate::near::assert_near;
 use crate::situations::{ON_ROUTE, behind, driver, empty_road};
 use laneweave_models::change::{
     Accelerations, Appraisal, LaneChangeModel, LaneView, Mobil, RouteKeeping, RouteView, Situation, Toward,
@@ -18,11 +19,6 @@ const IDM: FollowingModel = FollowingModel::Idm(Idm {
     exponent: 4.0,
 });
 static DRIVERS: FollowingModel = IDM;
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
 
 /// Left-hand side of the criterion [m/s²].
 fn advantage(model: &Mobil, toward: Toward, accelerations: &Accelerations) -> f64 {

@@ -1,13 +1,9 @@
 //! Headways and the chance of coming back in time.
 
+use crate::near::assert_near;
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{Flow, Returning};
 use proptest::prelude::*;
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
 
 fn flow(spacing: f64, speed: f64) -> Flow {
     Flow { spacing, speed, length: 5.0 }

@@ -1,15 +1,11 @@
 //! Which gaps are accepted.
 
+use crate::near::assert_near;
 use laneweave_models::change::{GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
 use proptest::prelude::*;
 
 /// Time step [s].
 const DT: f64 = 0.1;
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
 
 /// A pair whose follower's model demands no braking.
 fn pair(gap: f64, follower: f64, leader: f64) -> GapPair {

@@ -1,10 +1,7 @@
 //! Lanelets of real maps that lie side by side without a common border, if the maps are available.
 
-use std::path::Path;
-
 use laneweave_maps::{ReadOptions, load};
-
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2/");
+use laneweave_test_data::data;
 
 #[test]
 fn what_lies_alongside_runs_the_same_way_a_lane_apart() {
@@ -21,11 +18,7 @@ fn what_lies_alongside_runs_the_same_way_a_lane_apart() {
         ("xian", 1),
     ];
     for (file, count) in expected {
-        let path = Path::new(DATA).join(file).with_extension("osm");
-        if !path.exists() {
-            eprintln!("skipped: {file} is not there");
-            continue;
-        }
+        let Some(path) = data(&format!("lanelet2/{file}.osm")) else { continue };
         let network = load(&path, &ReadOptions::default()).unwrap().network;
         let pairs = network.alongside();
         assert_eq!(pairs.len(), count, "{file}");

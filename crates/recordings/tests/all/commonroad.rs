@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
-use std::path::Path;
 
 use laneweave_maps::{Problem, ReadOptions};
 use laneweave_recordings::{Recording, RecordingError, RoadUser, State, Track, commonroad};
+use laneweave_test_data::data;
 
 /// A car with three states (the second one's values are intervals) and a parked one, in version 2020a.
 const TWO_CARS: &str = "\
@@ -275,8 +275,6 @@ fn cut_files_are_refused_but_never_panic() {
     }
 }
 
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad/");
-
 /// Tracks, states, the last frame, and sums over all states of x [m], y [m] and speed [m/s], of lengths [m].
 type Sums = (usize, usize, i64, [f64; 4]);
 
@@ -302,11 +300,7 @@ fn windows_of_ngsim_agree_with_the_reference_library() {
         ("USA_US101-8_1_T-1", (27, 1427, 75, [73273.579, -77686.800, 17489.574, 133.350])),
     ];
     for (name, expected) in expected {
-        let path = Path::new(DATA).join(format!("{name}.xml"));
-        if !path.exists() {
-            eprintln!("skipped: {name} is not there");
-            continue;
-        }
+        let Some(path) = data(&format!("recordings/ngsim_commonroad/{name}.xml")) else { continue };
         let (recording, problems) = commonroad::read(&fs::read(&path).unwrap()).expect("it is sound");
         assert_eq!((recording.step, &problems[..]), (0.1, &[][..]), "{name}");
         let states: Vec<&State> = recording.tracks.iter().flat_map(|it| &it.states).collect();
@@ -328,11 +322,8 @@ fn windows_of_ngsim_agree_with_the_reference_library() {
 
 #[test]
 fn cars_of_a_window_drive_on_its_map() {
-    let path = Path::new(DATA).join("USA_US101-3_1_T-1.xml");
-    let Ok(bytes) = fs::read(path) else {
-        eprintln!("skipped: USA_US101-3_1_T-1 is not there");
-        return;
-    };
+    let Some(path) = data("recordings/ngsim_commonroad/USA_US101-3_1_T-1.xml") else { return };
+    let bytes = fs::read(path).expect("it can be read");
     let map = laneweave_maps::commonroad::read(&bytes, &ReadOptions::default()).unwrap();
     let (recording, _) = commonroad::read(&bytes).unwrap();
     let is_near = |state: &State| {

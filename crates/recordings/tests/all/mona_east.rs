@@ -1,32 +1,23 @@
 //! A real road, if it is available: six streams and 934 vehicles in 480 s.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use laneweave_maps::{Map, ReadOptions, load};
 use laneweave_network::LaneletIndex;
 use laneweave_recordings::{
     LaneChange, Matched, RecordedChangeKind, Recording, clean, interaction, lane_changes,
 };
-
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/mona_east/");
+use laneweave_test_data::data;
 
 fn map(file: &str) -> Option<Map> {
-    let path = Path::new(DATA).join(file);
-    if !path.exists() {
-        eprintln!("skipped: {file} is not there");
-        return None;
-    }
+    let path = data(&format!("recordings/mona_east/{file}"))?;
     let options = ReadOptions { origin: Some((0.0, 0.0)), ..ReadOptions::default() };
     Some(load(&path, &options).expect("the map is sound"))
 }
 
 fn recording() -> Option<Recording> {
-    let path = Path::new(DATA).join("vehicle_tracks_000.csv");
-    let Ok(bytes) = std::fs::read(path) else {
-        eprintln!("skipped: the tracks are not there");
-        return None;
-    };
+    let path = data("recordings/mona_east/vehicle_tracks_000.csv")?;
+    let bytes = std::fs::read(path).expect("it can be read");
     let (recording, problems) = interaction::read(&bytes).expect("the tracks are sound");
     assert_eq!(problems, []);
     Some(recording)

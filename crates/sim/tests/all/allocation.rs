@@ -1,4 +1,6 @@
 //! A step of traffic after the warm-up allocates no memory.
+//!
+//! The allocator counts for each thread, so that other tests of the same program do not count.
 #![expect(unsafe_code, reason = "an allocator that counts can only be written so")]
 
 use std::alloc::{GlobalAlloc, Layout, System};

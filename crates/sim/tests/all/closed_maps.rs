@@ -1,10 +1,8 @@
 //! Closed maps: trips start and end inside the map.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use crate::roads::{Road, drivers};
-use laneweave_maps::{Map, ReadOptions, load, regulations};
+use crate::roads::{Road, drivers, real};
 use laneweave_network::{ChainIndex, LaneletIndex, Network};
 use laneweave_sim::{
     Assignment, Class, Demand, Destination, Event, Fleet, InnerPlace, Navigator, Place, Placement, Places,
@@ -216,18 +214,9 @@ fn threads_and_the_storage_of_chains_change_nothing() {
     assert_eq!(hash(ring(3).with_chains_reversed(), 1), first);
 }
 
-/// A map of the shared data with its trip ends, if the file exists.
-fn real(file: &str) -> Option<(Network, Places)> {
-    const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
-    let path = Path::new(DATA).join(file);
-    if !path.exists() {
-        eprintln!("skipped: {file} is not there");
-        return None;
-    }
-    let map = load(&path, &ReadOptions::default()).expect("the map is sound");
-    let regulations = regulations(&map);
-    let Map { network, graph, .. } = map;
-    let network = network.regulated(&regulations);
+/// A real map with its trip ends, if this machine has it.
+fn with_places(file: &str) -> Option<(Network, Places)> {
+    let (network, graph) = real(file)?;
     let alone = graph.conflicting.iter().zip(0..).filter(|(others, _)| others.is_empty());
     let places = Places::along(&network, alone.map(|(_, it)| LaneletIndex(it)));
     Some((network, places))
@@ -238,7 +227,7 @@ fn trips_in_towns_end_at_their_places() {
     for (file, total, inner_places, least) in
         [("town10.osm", 1200.0, 45, 120), ("crossroads_with_stoplines.osm", 600.0, 23, 50)]
     {
-        let Some((network, places)) = real(file) else { continue };
+        let Some((network, places)) = with_places(file) else { continue };
         assert!(network.entrances.is_empty() || network.exits.is_empty());
         assert_eq!((places.origins.len(), places.destinations.len()), (inner_places, inner_places), "{file}");
         let mut world = world(network, places.clone(), total, 1);
@@ -249,7 +238,7 @@ fn trips_in_towns_end_at_their_places() {
 
 #[test]
 fn a_town_in_which_far_more_start_than_it_can_bear_lets_them_wait_and_keeps_moving() {
-    let Some((network, places)) = real("town10.osm") else { return };
+    let Some((network, places)) = with_places("town10.osm") else { return };
     let roads: f64 = network.chains.iter().map(|it| it.length).sum();
     let mut world = world(network, places, 4000.0, 1);
     for _ in 0..9 {

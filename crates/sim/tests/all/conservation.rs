@@ -1,7 +1,6 @@
 //! No vehicle appears or vanishes, and traffic does not depend on the step.
 
-use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use crate::roads::{Road, drivers, motorway_with_ramps};
 use laneweave_network::Network;
 use laneweave_sim::{Event, Setup, World};
 
@@ -14,15 +13,8 @@ fn world(network: Network, total: f64, step: f64, seed: u64) -> World {
 
 #[test]
 fn v28_in_every_step_who_arrived_waits_or_entered_and_who_entered_left_or_is_on_the_road() {
-    let plan = Motorway {
-        lanes: 2,
-        length_m: 3000.0,
-        on_ramp_at: vec![1000.0],
-        off_ramp_at: vec![2000.0],
-        ..Motorway::default()
-    };
     // More demand than the road's capacity, so that queues grow.
-    let mut world = world(motorway(&plan).unwrap().build().unwrap().network, 7500.0, 0.1, 3);
+    let mut world = world(motorway_with_ramps(2).network, 7500.0, 0.1, 3);
     let (mut entered, mut left, mut ids) = (0, 0, std::collections::BTreeSet::new());
     for _ in 0..6000 {
         world.step();

@@ -2,21 +2,14 @@
 
 use std::collections::HashMap;
 
-use crate::roads::drivers;
+use laneweave_maps::generate::{Grid, grid};
+use laneweave_sim::{Event, LaneletAggregate, VehicleId, World};
 
-use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
-use laneweave_maps::{Map, regulations};
-use laneweave_sim::{Event, LaneletAggregate, Setup, VehicleId, World};
+use crate::roads::motorway_with_ramps;
+use crate::trip_log::world;
 
+/// Step of that world [s].
 const STEP: f64 = 0.1;
-
-fn world(map: &Map, total: f64) -> World {
-    let network = map.network.clone().regulated(&regulations(map));
-    let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
-    let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
-    let setup = Setup { step: STEP, seed: 5, threads: 1 };
-    World::new(network, driver_parameters, demand, setup).expect("the set-up makes sense").with_trip_log()
-}
 
 /// The lanelet of each vehicle, and its speed.
 fn places(world: &World) -> HashMap<VehicleId, (usize, f64)> {
@@ -84,14 +77,7 @@ fn compare(mut world: World, [before, steps]: [u32; 2]) {
 
 #[test]
 fn on_a_motorway_with_ramps_times_and_ways_are_those_seen_step_by_step() {
-    let plan = Motorway {
-        lanes: 3,
-        length_m: 3000.0,
-        on_ramp_at: vec![1000.0],
-        off_ramp_at: vec![2000.0],
-        ..Motorway::default()
-    };
-    compare(world(&motorway(&plan).unwrap().build().unwrap(), 4000.0), [600, 1505]);
+    compare(world(&motorway_with_ramps(3), 4000.0), [600, 1505]);
 }
 
 #[test]

@@ -1,30 +1,14 @@
 //! Traffic on real maps of towns with short, curved lanes that are not parallel.
 
 use std::collections::HashMap;
-use std::path::Path;
 
-use crate::roads::drivers;
-
-use laneweave_maps::{Map, ReadOptions, load, regulations};
 use laneweave_network::{Network, Pose};
 use laneweave_sim::{Setup, VehicleId, World};
 
+use crate::roads::{drivers, real};
+
 /// Length of a step [s].
 const STEP: f64 = 0.1;
-
-/// A map of the shared data, if the file exists.
-fn town(file: &str) -> Option<Network> {
-    const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2");
-    let path = Path::new(DATA).join(file);
-    if !path.exists() {
-        eprintln!("skipped: {file} is not there");
-        return None;
-    }
-    let map = load(&path, &ReadOptions::default()).expect("the map is sound");
-    let regulations = regulations(&map);
-    let Map { network, .. } = map;
-    Some(network.regulated(&regulations))
-}
 
 fn world(network: Network, total: f64, trucks: f64) -> World {
     let demand = drivers::demand(&network, total, trucks, &[0.5, 0.5]);
@@ -36,7 +20,7 @@ fn world(network: Network, total: f64, trucks: f64) -> World {
 #[test]
 fn few_drivers_miss_their_turns_where_lanes_begin_and_end_at_junctions() {
     for file in ["karlsruhe_roundabout.osm", "intersection.osm"] {
-        let Some(network) = town(file) else { continue };
+        let Some((network, _)) = real(file) else { continue };
         let mut world = world(network, 1500.0, 0.1);
         (0..4800).for_each(|_| world.step());
         let (missed, counts) = (world.counters().missed_turns, world.counts());
@@ -51,7 +35,7 @@ fn bodies_move_no_further_than_their_vehicles_drive() {
     const TURNING: f64 = 0.3;
     const HARDEST_BRAKING: f64 = 8.0;
     for (file, total) in [("karlsruhe.osm", 1500.0), ("kashiwanoha.osm", 600.0)] {
-        let Some(network) = town(file) else { continue };
+        let Some((network, _)) = real(file) else { continue };
         let mut world = world(network, total, 0.3);
         let mut before: HashMap<VehicleId, (Pose, f64)> = HashMap::new();
         for _ in 0..2400 {

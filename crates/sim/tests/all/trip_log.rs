@@ -4,9 +4,10 @@ use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::{Map, regulations};
 use laneweave_sim::{DrivingEvent, DrivingEventKind, Event, Setup, TripRecord, World};
 
-use crate::roads::{Road, drivers};
+use crate::roads::{Road, drivers, motorway_with_ramps};
 
-fn world(map: &Map, total: f64) -> World {
+/// Traffic whose trips are recorded.
+pub(crate) fn world(map: &Map, total: f64) -> World {
     let network = map.network.clone().regulated(&regulations(map));
     let demand = drivers::demand(&network, total, 0.1, &[0.3, 0.7]);
     let driver_parameters = vec![drivers::aggressive(), drivers::conservative()];
@@ -56,14 +57,7 @@ fn add_up(mut world: World, steps: u32) {
 
 #[test]
 fn on_a_motorway_the_records_add_up_to_what_the_world_counts() {
-    let plan = Motorway {
-        lanes: 2,
-        length_m: 3000.0,
-        on_ramp_at: vec![1000.0],
-        off_ramp_at: vec![2000.0],
-        ..Motorway::default()
-    };
-    add_up(world(&motorway(&plan).unwrap().build().unwrap(), 4000.0), 6000);
+    add_up(world(&motorway_with_ramps(2), 4000.0), 6000);
 }
 
 #[test]

@@ -1,24 +1,13 @@
 //! Records of trips: delay against the free travel time, number of stops, and reasons for waiting.
 
-use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
+use laneweave_maps::generate::{Grid, grid};
 use laneweave_maps::regulations;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Held, Placement, Setup, World, entry_queues};
 
-use crate::roads::drivers;
+use crate::roads::{drivers, motorway_with_ramps};
 
 const STEP: f64 = 0.1;
-
-fn motorway_with_ramps() -> Network {
-    let plan = Motorway {
-        lanes: 2,
-        length_m: 3000.0,
-        on_ramp_at: vec![1000.0],
-        off_ramp_at: vec![2000.0],
-        ..Motorway::default()
-    };
-    motorway(&plan).expect("it can be made").build().expect("it can be made").network
-}
 
 /// A grid of two streets with lights and `rows` rows. With one row it has no loops.
 fn streets(rows: usize) -> Network {
@@ -49,7 +38,7 @@ fn place(world: &mut World, class: Class, chain: ChainIndex, destination: u16) {
 fn who_is_alone_on_a_motorway_is_not_delayed_wherever_it_goes() {
     for class in [Class::Car, Class::Truck] {
         for (exit, lane) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let mut world = world(motorway_with_ramps(), 0.0);
+            let mut world = world(motorway_with_ramps(2).network, 0.0);
             let start = world.network().entrances[0].chains[lane];
             place(&mut world, class, start, exit);
             while world.on_road() > 0 {
@@ -115,7 +104,7 @@ fn held(mut world: World) -> Vec<(Held, u32)> {
 
 #[test]
 fn who_cannot_enter_knows_why() {
-    let on_motorway = held(world(motorway_with_ramps(), 7500.0));
+    let on_motorway = held(world(motorway_with_ramps(2).network, 7500.0));
     let before_lights = held(world(streets(1), 8000.0));
     let before_a_full_town = held(world(streets(2), 8000.0));
     let of = |times: &[(Held, u32)], held| times.iter().find(|it| it.0 == held).unwrap().1;

@@ -1,7 +1,7 @@
 //! Twins: with nothing changed they stay the same to the last bit; with one thing changed they differ where it
 //! matters, not before.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use laneweave::Simulation;
 use laneweave::record::{End, Record, fingerprint};
@@ -13,8 +13,7 @@ const END: f64 = 240.0;
 
 /// A run on a built-in map, with guidance, with the usual drivers.
 fn record(map: &str, demand: f64) -> Record {
-    let mut scenario =
-        Scenario::of_map(PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(map));
+    let mut scenario = Scenario::of_map(laneweave_test_data::map(map));
     scenario.demand.vehicles_per_hour = Some(demand);
     scenario.guidance.interval_s = 60.0;
     scenario.run.duration_s = END;

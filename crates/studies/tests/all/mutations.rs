@@ -1,12 +1,12 @@
 //! `check` does not panic on any mutation of a map: neither the report, nor the graph, nor the picture.
 
-use std::path::Path;
 use std::thread;
 
 use laneweave::maps::generate::{Motorway, motorway};
 use laneweave::maps::{ReadOptions, lanelet2};
 use laneweave::sim::{Purpose, Random};
 use laneweave_studies::check::{GraphJson, Report, picture};
+use laneweave_test_data::data;
 
 /// Total number of mutated maps.
 const MAPS: u32 = 10_000;
@@ -54,10 +54,10 @@ fn originals() -> Vec<String> {
         lanelet_length_m: 200.0,
         ..Motorway::default()
     };
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/lanelet2");
-    let real = ["xian.osm", "tianjin.osm"].map(|it| std::fs::read_to_string(data.join(it)));
+    let real = ["lanelet2/xian.osm", "lanelet2/tianjin.osm"].into_iter().filter_map(data);
+    let real = real.map(|it| std::fs::read_to_string(it).expect("it is text"));
     let mut maps = vec![lanelet2::write(&motorway(&small).expect("the motorway is possible"))];
-    maps.extend(real.into_iter().flatten().map(|it| it.replace('\'', "\"")));
+    maps.extend(real.map(|it| it.replace('\'', "\"")));
     maps
 }
 

@@ -27,7 +27,7 @@ impl Road {
     fn simulation(self, seed: u64) -> Simulation {
         let builder = match self {
             Road::Motorway => {
-                let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../maps/ramps.osm");
+                let map = laneweave_test_data::map("ramps.osm");
                 Simulation::builder(map).vehicles_per_hour(6000.0)
             }
             Road::Town => {

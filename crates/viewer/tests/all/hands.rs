@@ -4,12 +4,9 @@ use std::path::{Path, PathBuf};
 
 use laneweave::scenario::Origin;
 use laneweave::{Class, LightState, Parameter, Simulation};
+use laneweave_test_data::map;
 use laneweave_viewer::source::{DriveSide, Wants};
 use laneweave_viewer::{Hand, Live, Seen, Snapshot, Source};
-
-fn map(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
-}
 
 /// A folder of this test alone.
 fn folder(name: &str) -> PathBuf {

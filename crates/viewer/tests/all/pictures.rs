@@ -1,13 +1,9 @@
 //! Pictures of traffic from above.
 
 use laneweave::scenario::Origin;
+use laneweave_test_data::map;
 use laneweave_viewer::{Camera, Live, Pictures, Rerun, Snapshot, Source, render};
-use std::path::{Path, PathBuf};
 use tiny_skia::Pixmap;
-
-fn map(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
-}
 
 fn asked(camera: Camera) -> Pictures {
     Pictures { camera, size: [400, 300], every_s: 1.0, from_s: Some(60.0), until_s: Some(62.0) }

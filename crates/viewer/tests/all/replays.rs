@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 
 use laneweave::scenario::{Origin, Replay};
 use laneweave_studies::replay;
@@ -23,7 +22,7 @@ fn recorded_vehicles_are_no_drivers_and_nobody_drives_them() {
     let recording = dir.join("vehicle_tracks_000.csv");
     fs::write(&recording, rows).expect("a file");
     let replay = Replay { recording: vec![recording], reactive_ids: vec![2], ..Replay::default() };
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/motorway_2_lanes.osm");
+    let map = laneweave_test_data::map("motorway_2_lanes.osm");
     let scenario = replay::scenario(map, replay).expect("a scenario");
     let mut live = Live::new(&scenario, &Origin::default(), dir.clone()).expect("a simulation");
     (0..50).for_each(|_| live.step(&mut Vec::new()).expect("a step"));

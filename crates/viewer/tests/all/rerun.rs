@@ -1,6 +1,5 @@
 //! A run that has ended is driven again bit for bit, whichever of its times is looked at.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use laneweave::Simulation;
@@ -12,7 +11,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 #[test]
 fn every_time_of_a_run_is_as_it_was_in_whatever_order_they_are_looked_at() {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/ramps.osm");
+    let map = laneweave_test_data::map("ramps.osm");
     let dir = std::env::temp_dir().join(format!("laneweave-rerun-{}", std::process::id()));
     let simulation = || Simulation::builder(map.as_path()).warmup_s(20.0).duration_s(100.0).build();
     let mut fresh = simulation().expect("a simulation");

@@ -2,7 +2,7 @@
 //! after it the twin is the one of `laneweave branch`.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use laneweave::Simulation;
 use laneweave::record::Record;
@@ -17,7 +17,7 @@ const SAME: u8 = 1;
 
 /// The results of a run on a motorway with ramps.
 fn results(name: &str) -> PathBuf {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/ramps.osm");
+    let map = laneweave_test_data::map("ramps.osm");
     let dir = std::env::temp_dir().join(format!("laneweave-{name}-{}", std::process::id()));
     let simulation = Simulation::builder(map.as_path()).warmup_s(20.0).duration_s(END - 20.0).build();
     simulation.expect("a simulation").run_to_results(&dir).expect("results");
@@ -107,7 +107,7 @@ fn what_is_no_time_or_no_setting_of_a_run_is_refused_and_a_run_alone_has_no_twin
 
 #[test]
 fn a_live_twin_says_since_when_it_is_shown_and_starts_without_a_difference() {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/ramps.osm");
+    let map = laneweave_test_data::map("ramps.osm");
     let (scenario, origin) = laneweave::scenario::Origin::open(&map).expect("a map");
     let mut live = Live::new(&scenario, &origin, std::env::temp_dir()).expect("a simulation");
     (0..300).for_each(|_| live.step(&mut Vec::new()).expect("a step"));

@@ -5,13 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::command::golden::assert_golden;
+use laneweave_test_data::data;
+
 use crate::command::program::{Folder, at_home, maps, without_first_duration};
 
-/// Real maps and recordings, if they are available.
+/// What a fit would leave.
 const STYLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../styles/conservative.toml");
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
 
-/// Files of the reader, each with a replacement from the project: under `DATA`, or with the maps.
+/// Files of the reader, each with a replacement of the real data.
 const THE_READERS: [(&str, &str); 4] = [
     ("my-map.osm", "lanelet2/town10.osm"),
     ("map.osm", "recordings/mona_east/map.osm"),
@@ -99,8 +100,9 @@ fn readers() -> (Folder, Vec<&'static str>) {
     let folder = at_home();
     let mut missing = Vec::new();
     for (name, ours) in THE_READERS {
-        if fs::copy(Path::new(DATA).join(ours), folder.path().join(name)).is_err() {
-            missing.push(name);
+        match data(ours) {
+            Some(ours) => drop(fs::copy(ours, folder.path().join(name)).expect("a copy")),
+            None => missing.push(name),
         }
     }
     // What a fit that is not run would leave.
@@ -185,12 +187,13 @@ fn figures_are_what_their_commands_draw() {
     known.sort_unstable();
     assert_eq!(names, known, "every figure has its command here");
     for (name, command, file) in FIGURES {
-        let line = command.replace("DATA/", DATA);
-        let input = line.split_whitespace().nth(1).unwrap().to_owned();
+        let input = command.split_whitespace().nth(1).unwrap();
+        let line = match input.strip_prefix("DATA/").map(data) {
+            Some(None) => continue,
+            Some(Some(path)) => command.replace(input, path.to_str().unwrap()),
+            None => command.to_owned(),
+        };
         let folder = at_home();
-        if !folder.path().join(input).exists() {
-            continue;
-        }
         let run = folder.laneweave(&line);
         assert_eq!(run.code(), 0, "{command}: {}", run.errors());
         assert_golden(&images.join(format!("{name}.svg")), &folder.read(file));

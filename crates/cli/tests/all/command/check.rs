@@ -2,9 +2,11 @@
 
 use std::fs;
 use std::io::Write;
+use std::iter;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use laneweave_test_data::data;
 use serde_json::{Value, json};
 
 use crate::command::program::{Folder, maps};
@@ -56,8 +58,8 @@ fn check_writes_the_graph_and_a_picture() {
 #[test]
 fn a_page_of_a_map_finds_lanelets_by_their_ids() {
     let folder = Folder::new();
-    let karlsruhe = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2/karlsruhe.osm");
-    for map in ["MAPS/town.osm", karlsruhe] {
+    let karlsruhe = data("lanelet2/karlsruhe.osm").map(|it| it.display().to_string());
+    for map in iter::once("MAPS/town.osm".to_owned()).chain(karlsruhe) {
         let report = answer(&folder, &format!("check {map} --json --html m.html"));
         let page = folder.read("m.html");
         assert!(!page.contains("{{") && !page.replace("http://www.w3.org", "").contains("://"), "{map}");

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
+use laneweave_test_data::data;
 use serde_json::Value;
 
 use crate::command::golden::assert_golden;
@@ -233,9 +234,9 @@ fn weights_are_corrected_for_errors_of_positions_whose_size_is_given() {
 
 #[test]
 fn sites_are_held_out_where_there_are_several() {
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad");
+    let Some(data) = data("recordings/ngsim_commonroad") else { return };
     let names = ["USA_US101-26_1_T-1", "USA_US101-6_1_T-1", "USA_Lanker-1_3_T-1"];
-    let files = names.map(|it| format!("{data}/{it}.xml")).join(" ");
+    let files = names.map(|it| data.join(format!("{it}.xml")).display().to_string()).join(" ");
     let report = json(&FITTED.folder, &format!("fit {files} --draws 0 --repetitions 1 --out sites --json"));
     for model in report["held_out"].as_array().expect("a list") {
         let elsewhere = &model["elsewhere"];

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::atomic::{AtomicU32, Ordering};
 
+pub(crate) use laneweave_test_data::maps;
 use serde_json::Value;
 
 /// A folder that is removed with the test.
@@ -56,11 +57,6 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
     }
-}
-
-/// The maps that come with the program.
-pub(crate) fn maps() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps")
 }
 
 /// A folder with the built-in maps and scenarios.

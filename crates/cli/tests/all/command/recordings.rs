@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use laneweave_test_data::data;
 use serde_json::Value;
 
 use crate::command::program::Folder;
@@ -95,13 +96,10 @@ fn what_cannot_be_observed_or_joined_is_refused_with_a_remedy() {
 #[test]
 fn commonroad_files_without_a_map_are_a_set_each_with_its_own() {
     let folder = Folder::new();
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad/");
+    let Some(data) = data("recordings/ngsim_commonroad") else { return };
     let names = ["USA_US101-3_1_T-1.xml", "USA_US101-6_1_T-1.xml"];
     for name in names {
-        if fs::copy(format!("{data}{name}"), folder.path().join(name)).is_err() {
-            eprintln!("skipped: the recordings are not there");
-            return;
-        }
+        fs::copy(data.join(name), folder.path().join(name)).expect("a copy");
     }
     let line = format!("check {} {}", names[0], names[1]);
     let set: Value = serde_json::from_str(&told(&folder, &format!("{line} --json"))).expect("it is JSON");

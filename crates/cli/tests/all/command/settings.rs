@@ -1,5 +1,7 @@
 //! The settings of a run.
 
+use laneweave_test_data::data;
+
 use crate::command::program::Folder;
 use crate::command::run::number;
 
@@ -79,12 +81,8 @@ fn headways_follow_the_law_of_the_scenario() {
 
 #[test]
 fn on_a_map_without_gates_trips_start_and_end_along_its_lanes() {
-    const TOWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/lanelet2/town10.osm");
-    if !std::path::Path::new(TOWN).exists() {
-        eprintln!("skipped: town10.osm is not there");
-        return;
-    }
-    let summary = Folder::new().summary(&format!("{TOWN} --demand 900 --duration 120 --quiet"));
+    let Some(town) = data("lanelet2/town10.osm") else { return };
+    let summary = Folder::new().summary(&format!("{} --demand 900 --duration 120 --quiet", town.display()));
     let count = |name: &str| summary[name].as_u64().unwrap();
     assert_eq!(number(&summary, "demand_veh_h").round(), 900.0);
     assert_eq!(count("entered"), count("completed") + count("on_road"));

@@ -4,8 +4,6 @@
 mod law;
 mod twin;
 
-use std::path::Path;
-
 use laneweave::explain::{Flip, Knob, flips};
 use laneweave::models::Style;
 use laneweave::models::change::LaneChangeModel;
@@ -23,7 +21,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// A busy straight motorway of three lanes with the usual drivers.
 fn motorway() -> World {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/motorway_3_lanes.osm");
+    let map = laneweave_test_data::map("motorway_3_lanes.osm");
     let mut scenario = Scenario::of_map(map);
     scenario.demand.vehicles_per_hour = Some(4500.0);
     scenario.guidance.interval_s = 0.0;

@@ -82,7 +82,7 @@ fn within_300_m_of_view_the_lane_changes_in_sight_are_found() {
 
 /// Four minutes of the town with a motorway through it, as they were and as a drone saw them.
 fn town() -> (Network, Vec<Made>, Recording) {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/town.osm");
+    let map = laneweave_test_data::map("town.osm");
     let mut scenario = Scenario::of_map(map);
     scenario.demand.vehicles_per_hour = Some(4000.0);
     let mut world = prepare(&scenario, &Origin::default()).expect("it is sound").world;

@@ -1,7 +1,5 @@
 //! In a town, too, a recorded driver knows what the simulated one knew.
 
-use std::path::Path;
-
 use laneweave_recordings::clean;
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 
@@ -13,7 +11,7 @@ const IN_TOWN: Spans =
 
 #[test]
 fn in_a_town_a_recorded_driver_knows_what_the_simulated_one_knew() {
-    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/town.osm");
+    let map = laneweave_test_data::map("town.osm");
     let mut scenario = Scenario::of_map(map);
     scenario.run.step_s = STEP;
     scenario.demand.vehicles_per_hour = Some(3000.0);

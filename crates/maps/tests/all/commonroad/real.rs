@@ -1,11 +1,8 @@
 //! Windows of NGSIM, if they are available: counts that agree with those of the reference library.
 
-use std::path::Path;
-
 use laneweave_maps::{ReadOptions, load};
 use laneweave_network::Lanelet;
-
-const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/recordings/ngsim_commonroad/");
+use laneweave_test_data::data;
 
 /// Lanelets, pairs that follow, left and right changes, left and right neighbours without changes, and the sum of the
 /// limits on signs [mm/s].
@@ -34,11 +31,7 @@ fn windows_of_ngsim_agree_with_the_reference_library() {
         ("USA_US101-8_1_T-1", [5, 0, 4, 4, 0, 0, 0]),
     ];
     for (name, expected) in expected {
-        let path = Path::new(DATA).join(format!("{name}.xml"));
-        if !path.exists() {
-            eprintln!("skipped: {name} is not there");
-            continue;
-        }
+        let Some(path) = data(&format!("recordings/ngsim_commonroad/{name}.xml")) else { continue };
         let map = load(&path, &ReadOptions::default()).expect("the map is sound");
         assert_eq!(map.problems, [], "{name}");
         let lanelets = &map.network.lanelets;

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use laneweave_models::follow::{FollowingModel, Newell};
 
-use crate::following::assert_near;
 use crate::following::cars::{Car, LENGTH};
 use crate::following::ring::Complex;
+use crate::near::assert_near;
 
 #[test]
 fn v20_newell_drivers_follow_their_leaders_path_shifted_in_time_and_space() {

@@ -13,8 +13,3 @@ mod sets;
 mod start;
 mod stops;
 mod waves;
-
-#[track_caller]
-fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}

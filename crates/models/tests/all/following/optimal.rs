@@ -5,9 +5,9 @@ use laneweave_models::follow::{
     Ahead, CarFollowing, FollowingModel, Fvdm, Gfm, GfmForm, OptimalVelocity, Ovm, Pace,
 };
 
-use crate::following::assert_near;
 use crate::following::points::{behind, optimum};
 use crate::following::sets::{literal_fvdm, literal_gfm, literal_ovm};
+use crate::near::assert_near;
 
 const LITERAL: OptimalVelocity =
     OptimalVelocity { reading: Reading::Literal, jam_gap: 0.0, length_scale: 1.0 };

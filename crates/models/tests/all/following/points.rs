@@ -2,9 +2,9 @@
 
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Idm, Pace, speed_after};
 
-use crate::following::assert_near;
 use crate::following::cars::LENGTH;
 use crate::following::sets::{k2010, literal_fvdm, t2000, urban};
+use crate::near::assert_near;
 
 /// Seconds in an hour.
 const HOUR: f64 = 3600.0;

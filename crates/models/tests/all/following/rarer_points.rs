@@ -4,10 +4,10 @@ use laneweave_models::follow::{
     Acc, Ahead, CarFollowing, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm, Pace,
 };
 
-use crate::following::assert_near;
 use crate::following::cars::LENGTH;
 use crate::following::points::{behind, optimum};
 use crate::following::sets::{k2010, t2000, urban};
+use crate::near::assert_near;
 
 #[test]
 fn v2_acc_brakes_as_published() {

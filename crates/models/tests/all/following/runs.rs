@@ -2,11 +2,11 @@
 
 use laneweave_models::follow::{CarFollowing, FollowingModel, Fvdm, Pace};
 
-use crate::following::assert_near;
 use crate::following::cars::{Car, LENGTH};
 use crate::following::ring::Ring;
 use crate::following::sets::{Published, k2010, literal_fvdm, t2000, urban};
 use crate::following::stops::emergency;
+use crate::near::assert_near;
 
 /// A step of `dt` [s] on a free road.
 type FreeStep = fn(&Published, Car, f64) -> Car;

@@ -3,9 +3,9 @@
 use laneweave_models::Reading;
 use laneweave_models::follow::{FollowingModel, Fvdm};
 
-use crate::following::assert_near;
 use crate::following::cars::{Car, runge_kutta};
 use crate::following::sets::{literal_fvdm, literal_gfm, literal_ovm};
+use crate::near::assert_near;
 
 /// Headway at which the literal optimal velocity is about 0 [m].
 const STANDING: f64 = 7.4;

@@ -3,9 +3,9 @@
 use laneweave_models::braking::HARDEST_BRAKING;
 use laneweave_models::follow::{FollowingModel, Gfm, Gipps, Krauss, Newell, Pace};
 
-use crate::following::assert_near;
 use crate::following::cars::Car;
 use crate::following::sets::{k2010, literal_fvdm, literal_gfm, literal_ovm, t2000};
+use crate::near::assert_near;
 
 /// The result for a follower whose leader brakes until it stands.
 pub(crate) struct Stop {

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use laneweave_models::follow::{FollowingModel, Krauss, Newell};
 
-use crate::following::assert_near;
 use crate::following::cars::{Car, LENGTH, runge_kutta};
 use crate::following::ring::{Complex, Equilibrium, Line, Ring};
 use crate::following::sets::{Published, k2010, literal_fvdm, literal_ovm, t2000, urban};
+use crate::near::assert_near;
 
 const DT: f64 = 0.1;
 /// Above the literal optimal velocity's maximum [m/s].

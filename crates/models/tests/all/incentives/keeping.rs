@@ -1,6 +1,7 @@
 //! Keeping to the slow side.
 
-use crate::incentives::{IDM, assert_near, chances, leaving_route};
+use crate::incentives::{IDM, chances, leaving_route};
+use crate::near::assert_near;
 use crate::situations::{driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::Repaired;

@@ -7,11 +7,6 @@ mod route;
 use laneweave_models::change::{Chances, Flow, LaneView, RouteView, Situation};
 use laneweave_models::follow::{FollowingModel, Idm};
 
-#[track_caller]
-pub(crate) fn assert_near(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance, "{value} is not {expected} within {tolerance}");
-}
-
 /// Chances of a driver who certainly makes its route from its lane, and with `there` from the other.
 pub(crate) fn chances(there: f64) -> Chances {
     Chances { here: 1.0, there }

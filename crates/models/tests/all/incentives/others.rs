@@ -1,26 +1,18 @@
 //! Speed, courtesy, comfort and urgency.
 
 use crate::incentives::route::literal_chance;
-use crate::incentives::{IDM, assert_near, chances, flow, leaving_route};
-use crate::situations::{ON_ROUTE, behind, driver, empty_road};
+use crate::incentives::{IDM, chances, flow, leaving_route};
+use crate::near::assert_near;
+use crate::situations::{LITERAL_FVDM, ON_ROUTE, behind, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{Literal, Repaired};
 use laneweave_models::change::{
     Comfort, Courtesy, Incentive, LaneChangeModel, LaneView, Merging, RouteView, Situation, Speed, Urgency,
     anticipated_speed, discomfort, urgency,
 };
-use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Fvdm, Pace};
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
 // Speed.
-
-static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
-    sensitivity: 0.41,
-    relative_sensitivity: 0.5,
-    range: 100.0,
-    jam_gap: 0.0,
-    length_scale: 1.0,
-    reading: Literal,
-});
 
 /// A leader behind which the literal optimal velocity is `speed` [m/s].
 fn leader_allowing(speed: f64) -> Option<Ahead> {

@@ -1,6 +1,7 @@
 //! The route, and the chance of coming back to it.
 
-use crate::incentives::{IDM, assert_near, chances, flow, leaving_route};
+use crate::incentives::{IDM, chances, flow, leaving_route};
+use crate::near::assert_near;
 use crate::situations::{ON_ROUTE, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{self, Literal, Repaired};

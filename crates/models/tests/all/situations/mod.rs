@@ -1,10 +1,21 @@
 //! Situations for tests: a driver on an empty road; a test then fills its lanes.
 
+use laneweave_models::Reading::Literal;
 use laneweave_models::change::{Behind, Driver, Flow, LaneView, RouteView, Situation, Toward};
-use laneweave_models::follow::{FollowingModel, Pace};
+use laneweave_models::follow::{FollowingModel, Fvdm, Pace};
 
 /// Net length of every vehicle [m].
 pub(crate) const LENGTH: f64 = 5.0;
+
+/// The FVDM as the paper has it.
+pub(crate) static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
+    sensitivity: 0.41,
+    relative_sensitivity: 0.5,
+    range: 100.0,
+    jam_gap: 0.0,
+    length_scale: 1.0,
+    reading: Literal,
+});
 
 /// A relaxed driver.
 pub(crate) fn driver(follow: &FollowingModel, speed: f64, desired: f64) -> Driver<'_> {

@@ -139,7 +139,7 @@ fn the_last_style_keeps_a_weight() {
 
 #[test]
 fn a_demand_that_the_headways_cannot_have_is_refused() {
-    let network = crate::external::worlds::network("motorway_3_lanes.osm");
+    let network = crate::roads::network("motorway_3_lanes.osm");
     let mut demand = crate::roads::drivers::demand(&network, 1000.0, 0.1, &[1.0, 1.0]);
     demand.headways = Headways::Shifted { minimum: 1.5 };
     let origin = demand.origins[0].place.id();

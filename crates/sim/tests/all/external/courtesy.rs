@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use laneweave_network::{ChainIndex, Side};
 use laneweave_sim::{Command, Control, Lateral, Longitudinal, Phase, Setup, Vehicle, VehicleId, World};
 
-use crate::external::worlds::network;
-use crate::roads::drivers;
+use crate::roads::{drivers, network};
 
 const SEEDS: u64 = 20;
 /// Student's t for 95 % and 20 seeds.

@@ -3,8 +3,8 @@
 use laneweave_models::{Parameter, Style};
 use laneweave_sim::{Command, CommandError, Event, Setup, World};
 
-use crate::external::worlds::{network, styles, world};
-use crate::roads::drivers;
+use crate::external::worlds::{styles, world};
+use crate::roads::{drivers, network};
 
 const STYLE: &str = "conservative";
 

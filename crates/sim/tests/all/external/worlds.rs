@@ -1,22 +1,9 @@
 //! Worlds for these tests.
 
-use laneweave_maps::generate::own_maps;
-use laneweave_maps::{Map, regulations};
 use laneweave_models::{Attention, Style};
-use laneweave_network::Network;
 use laneweave_sim::{Setup, World};
 
-use crate::roads::drivers;
-
-/// The network of a map of our own, with its junctions.
-pub(crate) fn network(name: &str) -> Network {
-    let maps = own_maps().expect("they can be drawn");
-    let (_, drawing) = maps.into_iter().find(|it| it.0 == name).expect("there is one of this name");
-    let map = drawing.build().expect("the drawing is sound");
-    let regulations = regulations(&map);
-    let Map { network, .. } = map;
-    network.regulated(&regulations)
-}
+use crate::roads::{drivers, network};
 
 /// An aggressive style, and a conservative style that is inattentive at times.
 pub(crate) fn styles() -> Vec<Style> {

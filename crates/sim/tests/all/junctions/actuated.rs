@@ -5,7 +5,7 @@ use laneweave_maps::{Map, regulations};
 use laneweave_network::{ChainIndex, Extension, LightIndex, LightState, Network, Sign, SignalPlan, Turn};
 use laneweave_sim::{Command, Rate, Setup, World};
 
-use crate::junctions::town::{self, STEP, assert_sound};
+use crate::junctions::town::{STEP, assert_sound};
 use crate::roads::drivers;
 
 /// Maximum green [s].
@@ -138,7 +138,7 @@ fn with_little_traffic_from_one_road_delays_are_shorter_than_with_fixed_greens()
 #[test]
 fn actuated_lights_are_the_same_on_any_number_of_threads_and_in_any_order_of_storage() {
     let town = |threads: usize, is_reversed: bool| {
-        let network = town::network("grid.osm");
+        let network = crate::roads::network("grid.osm");
         let plans: Vec<_> = network.junctions.made.iter().cloned().map(SignalPlan::actuated).collect();
         let network = network.with_signals(&plans);
         let network = if is_reversed { network.with_chains_reversed() } else { network };

@@ -7,8 +7,8 @@ use laneweave_network::{
 };
 use laneweave_sim::{Class, Disutility, Navigator, Placement};
 
-use crate::junctions::town::{Arm, empty, exit_to, lane_from, network, run_until};
-use crate::roads::drivers;
+use crate::junctions::town::{Arm, empty, exit_to, lane_from, run_until};
+use crate::roads::{drivers, network};
 
 /// The disutility of the route from arm to arm of the only junction.
 fn disutility(network: &Network, from: Arm, to: Arm) -> Disutility {

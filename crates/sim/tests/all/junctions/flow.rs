@@ -2,8 +2,8 @@
 
 use laneweave_sim::{Setup, World};
 
-use crate::junctions::town::{STEP, assert_sound, network};
-use crate::roads::drivers;
+use crate::junctions::town::{STEP, assert_sound};
+use crate::roads::{drivers, network};
 
 #[test]
 fn at_a_junction_that_is_not_too_busy_everybody_gets_through() {

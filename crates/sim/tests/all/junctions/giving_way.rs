@@ -5,10 +5,8 @@ use laneweave_models::yielding::Yielding;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{VehicleId, World};
 
-use crate::junctions::town::{
-    Arm, Comer, assert_sound, empty, has_gone, lane_from, lane_to, network, put, run_until,
-};
-use crate::roads::drivers;
+use crate::junctions::town::{Arm, Comer, assert_sound, empty, has_gone, lane_from, lane_to, put, run_until};
+use crate::roads::{drivers, network};
 
 /// Speed of the driver with the right of way [m/s].
 const CRUISE: f64 = 25.0 / 3.6;

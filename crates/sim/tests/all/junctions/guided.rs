@@ -4,8 +4,8 @@ use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_network::Network;
 use laneweave_sim::{Setup, World};
 
-use crate::junctions::town::{STEP, network};
-use crate::roads::drivers;
+use crate::junctions::town::STEP;
+use crate::roads::{drivers, network};
 
 const INTERVAL: f64 = 30.0;
 

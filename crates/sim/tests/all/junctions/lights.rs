@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use laneweave_network::{LightIndex, LightState, Network, Sign, SignalPlan, Turn};
 use laneweave_sim::{Class, Placement, Setup, World};
 
-use crate::junctions::town::{STEP, assert_sound, empty, network};
-use crate::roads::drivers;
+use crate::junctions::town::{STEP, assert_sound, empty};
+use crate::roads::{drivers, network};
 
 #[test]
 fn nobody_drives_over_the_line_of_a_red_light() {

@@ -10,9 +10,9 @@ use laneweave_network::{ChainIndex, Network, Touch};
 use laneweave_sim::{Class, Placement, VehicleId, World};
 
 use crate::junctions::town::{
-    Arm, Comer, assert_sound, empty, exit_to, has_gone, lane_from, lane_to, network, put, run_until,
+    Arm, Comer, assert_sound, empty, exit_to, has_gone, lane_from, lane_to, put, run_until,
 };
-use crate::roads::drivers;
+use crate::roads::{drivers, network};
 
 /// A driver who hardly moves in an hour.
 fn immobile() -> Style {

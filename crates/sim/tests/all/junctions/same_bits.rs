@@ -3,8 +3,8 @@
 use laneweave_network::Network;
 use laneweave_sim::{Setup, World};
 
-use crate::junctions::town::{STEP, network};
-use crate::roads::drivers;
+use crate::junctions::town::STEP;
+use crate::roads::{drivers, network};
 
 /// Hash of the state after two minutes of dense traffic, which is enough to be shared among threads.
 fn hash(network: Network, threads: usize) -> u64 {

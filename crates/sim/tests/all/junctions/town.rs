@@ -1,7 +1,5 @@
 //! Traffic on the maps that come with the program.
 
-use laneweave_maps::generate::own_maps;
-use laneweave_maps::{Map, regulations};
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Placement, Setup, VehicleId, World};
@@ -38,16 +36,6 @@ impl Arm {
             (false, false) => Arm::South,
         }
     }
-}
-
-/// The network of a map in the folder `maps`, with its junctions.
-pub(crate) fn network(name: &str) -> Network {
-    let maps = own_maps().expect("they can be drawn");
-    let (_, drawing) = maps.into_iter().find(|it| it.0 == name).expect("there is one of this name");
-    let map = drawing.build().expect("the drawing is sound");
-    let regulations = regulations(&map);
-    let Map { network, .. } = map;
-    network.regulated(&regulations)
 }
 
 /// An empty world without demand.

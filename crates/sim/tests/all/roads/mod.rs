@@ -1,8 +1,11 @@
-//! Roads for tests, drawn without a map.
+//! Roads for tests: drawn without a map, and some maps.
 
 pub(crate) mod drivers;
 
+use laneweave_maps::generate::{Motorway, motorway, own_maps};
+use laneweave_maps::{Graph, Map, ReadOptions, load, regulations};
 use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
+use laneweave_test_data::data;
 
 /// Width of a lane [m].
 pub(crate) const WIDTH: f64 = 3.5;
@@ -93,4 +96,34 @@ impl Road {
         };
         Point::new(x, if self.is_mirrored { -y } else { y }, 0.0)
     }
+}
+
+/// The network of a map of our own, with its junctions.
+pub(crate) fn network(name: &str) -> Network {
+    let maps = own_maps().expect("they can be drawn");
+    let (_, drawing) = maps.into_iter().find(|it| it.0 == name).expect("there is one of this name");
+    regulated(drawing.build().expect("the drawing is sound")).0
+}
+
+/// The network of a real map of a town, if this machine has it, and its graph.
+pub(crate) fn real(file: &str) -> Option<(Network, Graph)> {
+    let path = data(&format!("lanelet2/{file}"))?;
+    Some(regulated(load(&path, &ReadOptions::default()).expect("the map is sound")))
+}
+
+fn regulated(map: Map) -> (Network, Graph) {
+    let regulations = regulations(&map);
+    (map.network.regulated(&regulations), map.graph)
+}
+
+/// A motorway of 3 km with an on-ramp and an off-ramp.
+pub(crate) fn motorway_with_ramps(lanes: usize) -> Map {
+    let plan = Motorway {
+        lanes,
+        length_m: 3000.0,
+        on_ramp_at: vec![1000.0],
+        off_ramp_at: vec![2000.0],
+        ..Motorway::default()
+    };
+    motorway(&plan).expect("it can be made").build().expect("the drawing is sound")
 }

@@ -7,8 +7,9 @@ use laneweave::run::{Resumed, Run, kept, resume};
 use laneweave::scenario::{External, Origin, Scenario};
 use laneweave::{Class, Control, Lateral, Longitudinal, Simulation};
 use laneweave_studies::branch::Twins;
+use laneweave_test_data::map;
 
-use super::runs::{assert_same_tables, folder, map, refused, run, scenario, simulation};
+use super::runs::{assert_same_tables, folder, refused, run, scenario, simulation};
 
 /// A car on a motorway from 20 s on, at 15 m/s.
 fn lead() -> External {

@@ -7,11 +7,7 @@ use std::path::{Path, PathBuf};
 use laneweave::output::Summary;
 use laneweave::scenario::{Origin, Scenario, TableFormat};
 use laneweave::{Fault, Simulation};
-
-/// The path of a map.
-pub(crate) fn map(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
-}
+use laneweave_test_data::map;
 
 /// An empty folder for a test.
 pub(crate) fn folder(name: &str) -> PathBuf {

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use laneweave::VehicleId;
 use laneweave_recordings::{Recording, State, open};
+use laneweave_test_data::map;
 
-use crate::replayed::set_up::{map, mona, observed, of_style, ready, replayed, written};
+use crate::replayed::set_up::{mona, observed, of_style, ready, replayed, written};
 
 /// Replays a recording, and compares all vehicles with it in every frame.
 fn assert_as_recorded(file: PathBuf, map: PathBuf) {

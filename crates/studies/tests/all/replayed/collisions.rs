@@ -3,8 +3,9 @@
 use laneweave::scenario::Origin;
 use laneweave_recordings::{Recording, RoadUser, State, Track};
 use laneweave_studies::replay::{Asked, Collisions, replay};
+use laneweave_test_data::map;
 
-use crate::replayed::set_up::{map, replayed, written};
+use crate::replayed::set_up::{replayed, written};
 
 /// A car that drives along a lane of the motorway with three lanes, from frame 0 to 150, a tenth of a second each.
 fn car(id: i64, from_x: f64, lane_y: impl Fn(f64) -> f64, speed: impl Fn(f64) -> f64) -> Track {

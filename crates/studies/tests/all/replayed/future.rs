@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use laneweave::sim::{Purpose, Random};
 use laneweave_recordings::{Recording, State, open};
+use laneweave_test_data::map;
 
-use crate::replayed::set_up::{map, mona, observed, of_style, ready, replayed, written};
+use crate::replayed::set_up::{mona, observed, of_style, ready, replayed, written};
 
 /// All drivers at every step up to a time [s]: ids in the recording, places and speeds, bit for bit.
 fn driven(recording: PathBuf, map: PathBuf, until_s: f64) -> Vec<(u32, i64, [u64; 3])> {

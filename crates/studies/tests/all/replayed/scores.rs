@@ -3,8 +3,9 @@
 use laneweave::scenario::Origin;
 use laneweave::style::Model;
 use laneweave_studies::replay::{Asked, Matched, replay};
+use laneweave_test_data::map;
 
-use crate::replayed::set_up::{map, observed, of_style, replayed, written};
+use crate::replayed::set_up::{observed, of_style, replayed, written};
 
 #[test]
 fn on_a_recording_of_our_motorway_the_true_style_wins() {

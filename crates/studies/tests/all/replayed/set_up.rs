@@ -2,18 +2,14 @@
 
 use std::env;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use laneweave::Simulation;
 use laneweave::scenario::{Origin, Replay, Scenario};
 use laneweave_recordings::{Drone, Recording, interaction};
 use laneweave_studies::replay;
-
-/// A file of our own maps.
-pub(crate) fn map(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
-}
+use laneweave_test_data::{data, map};
 
 /// A run on one of our own maps as a drone sees it, with errors of so much [m].
 pub(crate) fn observed(scenario: &Scenario, noise: f64) -> Recording {
@@ -62,11 +58,6 @@ pub(crate) fn ready(scenario: &Scenario) -> Simulation {
 
 /// The recording and the map of a place, if they are there.
 pub(crate) fn mona() -> Option<[PathBuf; 2]> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/recordings/mona_east");
-    let files = [folder.join("vehicle_tracks_000.csv"), folder.join("map.osm_xy")];
-    if files.iter().all(|it| it.exists()) {
-        return Some(files);
-    }
-    eprintln!("skipped: {} is not there", folder.display());
-    None
+    let folder = data("recordings/mona_east")?;
+    Some([folder.join("vehicle_tracks_000.csv"), folder.join("map.osm_xy")])
 }

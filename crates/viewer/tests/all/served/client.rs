@@ -2,20 +2,15 @@
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
-use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use laneweave::scenario::Origin;
+use laneweave_test_data::map;
 use laneweave_viewer::{Live, Server, Source, Token};
 use tungstenite::{Message, WebSocket, client};
 
 /// Nothing takes longer than this, on a machine that others use, too.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
-
-/// A map of the project.
-pub(crate) fn map(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name)
-}
 
 /// A simulation of a map.
 pub(crate) fn live(name: &str) -> Live {

@@ -2,9 +2,10 @@
 
 use laneweave::Simulation;
 use laneweave::scenario::Origin;
+use laneweave_test_data::map;
 use laneweave_viewer::Live;
 
-use crate::served::client::{Page, live, map, server};
+use crate::served::client::{Page, live, server};
 
 fn word(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])

@@ -4,9 +4,10 @@ use std::fs;
 
 use laneweave::maps::{ReadOptions, load};
 use laneweave::recordings::{Recording, RoadUser, State, Track};
+use laneweave_test_data::map;
 use laneweave_viewer::{Asked, Recorded, Server};
 
-use crate::served::client::{Page, map, serving};
+use crate::served::client::{Page, serving};
 
 const VEHICLES: i64 = 10_000;
 /// Time between two frames [s].
