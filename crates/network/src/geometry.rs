@@ -111,7 +111,7 @@ impl Polyline {
         Polyline::new(all.iter().map(|f| left.at(f * left.length()).midpoint(&right.at(f * right.length()))))
     }
 
-    /// Its points.
+    /// Its points, from its start to its end.
     pub fn points(&self) -> &[Point] {
         &self.points
     }

@@ -14,7 +14,7 @@ use laneweave_studies::branch::{Differences, Setting, Twins, page};
 use super::say;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct BranchArguments {
     /// The folder with the results of a run; the run is repeated.
     #[arg(value_name = "OUT")]
     out: PathBuf,
@@ -30,9 +30,9 @@ pub(crate) struct Arguments {
     into: Option<PathBuf>,
 }
 
-impl Arguments {
+impl BranchArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { out, at, settings, into } = self;
+        let BranchArguments { out, at, settings, into } = self;
         let record = Record::open(&out)?;
         let folder = into.unwrap_or_else(|| out.join(BRANCH));
         if folder.join(SCENARIO).exists() {

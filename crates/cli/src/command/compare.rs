@@ -21,7 +21,7 @@ use super::say;
 const USUAL: [Model; 5] = [Model::Mcdm, Model::Mobil, Model::Lmrs, Model::Null, Model::ConstantHazard];
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct CompareArguments {
     /// Scenario files (.toml), or maps.
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::FilePath, required = true)]
     inputs: Vec<PathBuf>,
@@ -47,9 +47,9 @@ pub(crate) struct Arguments {
     size: Limit,
 }
 
-impl Arguments {
+impl CompareArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { inputs, models, seeds, demand, duration, warmup, out, size } = self;
+        let CompareArguments { inputs, models, seeds, demand, duration, warmup, out, size } = self;
         let models = if models.is_empty() { USUAL.to_vec() } else { models };
         let threads = available_parallelism().map_or(1, |it| it.get());
         let mut asked = Vec::new();

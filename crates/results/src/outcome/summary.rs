@@ -32,7 +32,7 @@ pub struct Summary {
     pub removed: u64,
     /// Commands of the scenario that were not possible when they were due.
     pub commands_refused: u64,
-    /// Of those that completed it, those with a trip within one lanelet, which are left out of the means over trips.
+    /// Completed trips that start and end on one lanelet; they are not in the means over trips.
     pub trips_of_one_lanelet: u64,
     /// Vehicles on the road at the end.
     pub on_road: u64,
@@ -42,7 +42,7 @@ pub struct Summary {
     pub estimated_capacity_veh_h: f64,
     /// The bottleneck: what is full first when the demand grows.
     pub bottleneck: Option<String>,
-    /// Lane changes.
+    /// Completed crossings of all three kinds.
     pub lane_changes: u64,
     /// Of them, between lanes of equal worth for the route.
     pub lane_changes_discretionary: u64,
@@ -119,7 +119,7 @@ pub struct Summary {
     pub threads: usize,
     /// Version of the program.
     pub version: &'static str,
-    /// The map.
+    /// The path of the map, as the scenario names it.
     pub map: String,
 }
 

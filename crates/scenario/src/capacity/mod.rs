@@ -30,7 +30,7 @@ pub(crate) use queues::Queues;
 pub struct Capacity {
     /// Of all origins together [veh/h].
     pub veh_h: f64,
-    /// The bottleneck.
+    /// What is full at this demand.
     pub bottleneck: Option<Bottleneck>,
 }
 

@@ -36,7 +36,7 @@ pub struct Recorded {
     /// Time after its first frame at which the simulation begins [s]. What was recorded before shows only where
     /// vehicles go.
     pub from_s: f64,
-    /// Pairs of lanelets, from the first of which drivers may change to the second, whatever the map says.
+    /// Lane changes (from, to) that the recording shows, and that drivers may make against the map.
     pub permitted: BTreeSet<[LaneletIndex; 2]>,
 }
 

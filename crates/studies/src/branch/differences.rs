@@ -40,7 +40,7 @@ pub struct Vehicle {
     pub completed_s: [Option<f64>; 2],
 }
 
-/// The differences.
+/// What differs between the twins, vehicle by vehicle and second by second.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
     /// The branch time [s].
