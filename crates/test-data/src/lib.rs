@@ -2,7 +2,7 @@
 //!
 //! | variable | meaning |
 //! |---|---|
-//! | `LANEWEAVE_DATA` | the folder of real maps and recordings, or `none`; else `../shared/data` beside the repository |
+//! | `LANEWEAVE_DATA` | the folder of real maps and recordings, or `none`; else `../shared/data` beside the clone |
 //! | `LANEWEAVE_SKIPPED` | a file to which each test that skips something adds a line |
 //! | `LANEWEAVE_TESTS` | `full` for the whole of those tests that are usually small |
 //! | `CI` | `true` where nothing may be skipped unless `LANEWEAVE_DATA` is `none` |

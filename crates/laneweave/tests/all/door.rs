@@ -41,15 +41,15 @@ fn what_users_have_set_is_gone_after_a_reset() {
     let mut simulation = simulation("grid.osm", 2000.0, 4);
     let (origin, before) = simulation.origins()[0];
     let light = simulation.lights()[0].id;
-    let time_gap = simulation.parameter("aggressive", Parameter::TimeGap).expect("it has one");
+    let factor = simulation.parameter("aggressive", Parameter::SpeedFactor).expect("it has one");
     simulation.set_demand(origin, 10.0).expect("an entrance");
     simulation.set_light(light, Some(LightState::Red)).expect("a light");
-    simulation.set_parameter("aggressive", Parameter::TimeGap, 3.0).expect("a number");
+    simulation.set_parameter("aggressive", Parameter::SpeedFactor, 0.8).expect("a number");
     simulation.run(30.0).expect("a time to come");
     simulation.reset(4).expect("a seed");
     assert_eq!(simulation.demand_at(origin), Some(before));
     assert_eq!(simulation.light_override(light), Some(None));
-    assert_eq!(simulation.parameter("aggressive", Parameter::TimeGap), Some(time_gap));
+    assert_eq!(simulation.parameter("aggressive", Parameter::SpeedFactor), Some(factor));
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::thread::available_parallelism;
 use laneweave_maps::{Graph, Map, Problem, Size, regulations};
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_sim::{Place, Places, Rate, Setup, World};
+use laneweave_sim::{Place, Places, Setup, World};
 
 use super::basis::{Basis, usual};
 use super::demand::{check_ways, demand};
@@ -179,9 +179,7 @@ fn prepare_with(
         let assignment = world.assignment(measured);
         Capacity::of(world.network(), &assignment, &inner_places(world.demand()), &queues)
     })?;
-    let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
-    let origins: Vec<(Place, f64)> =
-        world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
+    let origins = origins(&world, measured);
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);
     let world = equipped(world, warmup_steps, scenario, origin)?;
@@ -209,6 +207,11 @@ fn prepare_with(
         script,
         world,
     })
+}
+
+/// Where trips start in `world`, each with its mean demand between two times [s] [veh/h].
+fn origins(world: &World, [from, until]: [f64; 2]) -> Vec<(Place, f64)> {
+    world.demand().origins.iter().map(|it| (it.place.clone(), it.rate.mean(from, until))).collect()
 }
 
 /// The estimated capacity of the map of `world` for its demand between two times [s].
