@@ -78,7 +78,7 @@ function missing(all, summary) {
   const wanted = summary.collisions + summary.overlaps > 0 ? [...ALWAYS, COLLISIONS] : ALWAYS;
   const wrong = wanted.filter((it) => !titles.includes(it)).map((it) => `no figure “${it}”`);
   if (titles.length !== new Set(titles).size) wrong.push(`two figures of one title: ${titles}`);
-  const changes = summary.lane_changes_discretionary + summary.lane_changes_route;
+  const changes = summary.lane_changes_discretionary + summary.lane_changes_route_driven;
   for (const { title, size, roads, lanes, marks, shapes } of all) {
     const isEmpty = Math.min(...size) < 50 || shapes === 0
       || (title.endsWith('on the map') && roads === 0)
@@ -104,6 +104,18 @@ export async function reports_of_all_maps(around) {
 /** The number of the values in each line of a table; values with a comma stand in quotation marks. */
 const widths = (csv) => csv.trimEnd().split('\n').map((line) => line.replace(/"[^"]*"/g, '').split(',').length);
 
+/** The download of a link. A browser on a busy machine may not answer a click: a reader would click again. */
+async function downloaded(opened, link) {
+  for (let tries = 1; ; tries += 1) {
+    try {
+      const [download] = await Promise.all([opened.waitForEvent('download', { timeout: 20_000 }), link.click()]);
+      return download;
+    } catch (error) {
+      if (tries === 5) throw error;
+    }
+  }
+}
+
 /** Every figure of a report, as a drawing and as a table. */
 export async function figures_to_take_along(around) {
   const report = reported(around, path.join(around.home, 'maps/ramps.osm'), path.join(around.folder, 'taken'), ['--duration', '120']);
@@ -111,7 +123,7 @@ export async function figures_to_take_along(around) {
   await opened.goto(pathToFileURL(report).href);
   const links = await opened.locator('figure .downloads > *').all();
   for (const link of links) {
-    const [download] = await Promise.all([opened.waitForEvent('download'), link.click()]);
+    const download = await downloaded(opened, link);
     const name = download.suggestedFilename();
     const text = readFileSync(await download.path(), 'utf8');
     if (name.endsWith('.svg')) assert.match(text, /^<svg [^]*xmlns="http:\/\/www.w3.org\/2000\/svg"[^]*<\/svg>$/, name);

@@ -118,16 +118,16 @@ def trips_agree(folder, summary, lanes, result):
     attributes += ["waitingTime", "waitingCount", "timeLoss", "rerouteNo", "vType"]
     theirs = table(folder / "tripinfo.xml", "tripinfo", attributes, ["departLane", "arrivalLane", "vType"])
     trips = pandas.read_parquet(folder / "trips.parquet")
-    ours = trips[trips.left_s.notna()].reset_index()
+    ours = trips[trips.completed_s.notna()].reset_index()
     result.equal("trips that began", summary["entered"], len(trips))
-    result.equal("trips that ended", summary["left"], len(theirs))
+    result.equal("trips that ended", summary["completed"], len(theirs))
     result.near("tripinfo: mean duration", summary["mean_trip_duration_s"], theirs.duration.mean())
     result.near("tripinfo: mean number of stops", summary["mean_stops"], theirs.waitingCount.mean(), 1e-9)
     # Delays of our summary count free times in tenths; those of SUMO are never negative.
     result.near("trips: mean delay", summary["mean_delay_s"], ours.delay_s.mean(), 0.05)
     delay = ours.delay_s.clip(lower=0.0)
     pairs = [
-        ("id", ours.vehicle), ("depart", ours.entered_s), ("departDelay", ours.waiting_s), ("arrival", ours.left_s),
+        ("id", ours.vehicle), ("depart", ours.entered_s), ("departDelay", ours.insertion_delay_s), ("arrival", ours.completed_s),
         ("duration", ours.duration_s), ("routeLength", ours.length_m), ("waitingTime", ours.standing_s),
         ("waitingCount", ours.stops), ("timeLoss", delay), ("rerouteNo", ours.route_changes + ours.missed_turns),
     ]
@@ -143,7 +143,7 @@ def trips_agree(folder, summary, lanes, result):
     result.equal("tripStatistics: vehicles", float(len(ours)), of("total number of vehicles"))
     result.near("tripStatistics: travel time", ours.duration_s.mean(), of("average vehicular travel time(s)"))
     result.near("tripStatistics: travel length", ours.length_m.mean(), of("average vehicular travel length(m)"))
-    waiting = (ours.waiting_s + ours.standing_s).mean()
+    waiting = (ours.insertion_delay_s + ours.standing_s).mean()
     result.near("tripStatistics: waiting time", waiting, of("average vehicular waiting time(s)"), 2 * ROUNDING)
 
     script("output/tripinfoByType.py", "-t", "tripinfo.xml", "-o", "types.xml", folder=folder)

@@ -63,7 +63,7 @@ def differences(name, folders, columns, summary):
         if not same(frame[column], csv[column]):
             yield f"{column} is not the same in the CSV"
     if name == "trips":
-        if [len(frame), frame.left_s.notna().sum()] != [summary["entered"], summary["left"]]:
+        if [len(frame), frame.completed_s.notna().sum()] != [summary["entered"], summary["completed"]]:
             yield f"{len(frame)} trips for {summary['entered']} vehicles"
         mean = frame.duration_s.mean()
         if abs(mean - summary["mean_trip_duration_s"]) > 1e-9 * mean:

@@ -15,7 +15,7 @@ pub struct Choices {
     pub width: usize,
     /// The terms of all sides, one after the other.
     pub terms: Vec<f64>,
-    /// The epochs.
+    /// Every time that a driver chose.
     pub epochs: Vec<Epoch>,
 }
 
@@ -33,7 +33,7 @@ pub struct Epoch {
 /// What a fit gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// The estimates.
+    /// The most likely weights, one for each term.
     pub estimates: Vec<f64>,
     /// Their covariance: the inverse of the information, with that of the prior.
     pub covariance: DMatrix<f64>,

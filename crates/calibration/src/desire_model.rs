@@ -10,7 +10,7 @@ use crate::place_spread::PlaceSpread;
 use crate::prior::Prior;
 use crate::waiting::{Assumptions, Design, Driver, Layout, NO_STRATUM, Spell, logit};
 
-/// A model of desire.
+/// Which terms the utility G has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DesireModel {
     /// A constant chance everywhere.

@@ -18,14 +18,14 @@ pub struct Folds {
     pub parts: usize,
     /// Draws of the bootstrap over drivers that gives the intervals.
     pub draws: u32,
-    /// Seed.
+    /// The seed of these divisions and draws.
     pub seed: u64,
 }
 
 /// A model with its fit to all drivers, and its predictions of those who were held out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Its name.
+    /// The name of the model.
     pub name: String,
     /// The fit to all drivers.
     pub fit: WaitingFit,

@@ -1,4 +1,13 @@
 //! Calibration: recorded traffic in, driving styles with their uncertainty out.
+//!
+//! [`observe`] turns a matched recording into what every driver saw on both sides, second by second, and the change
+//! that began. A [`DesireModel`] picks the terms of G, which gives a design: numbers only. [`waiting`] has the
+//! likelihood of the hidden process free → wants → changes, with its gradient; `choice.rs` has that of choices which
+//! were observed exactly.
+//!
+//! `study.rs` puts a fit together: spreads of priors (`place_spread.rs`), the profile of β, bootstrap, classes
+//! (`classes.rs`), held-out drivers (`held_out.rs`). Gradients are added up in chunks of fixed size, so that the
+//! number of threads changes nothing.
 
 mod choice;
 mod classes;

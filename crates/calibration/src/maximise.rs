@@ -13,7 +13,6 @@ const HALVINGS: usize = 40;
 /// Share of the promised gain that a step has to bring (Armijo).
 const ENOUGH: f64 = 1e-4;
 
-/// A maximum.
 #[derive(Clone, Debug)]
 pub(crate) struct Maximum {
     pub(crate) at: DVector<f64>,

@@ -33,7 +33,7 @@ pub struct PriorWeights {
 /// What is asked of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asked {
-    /// The prior.
+    /// What is expected of the weights before any data.
     pub prior: PriorWeights,
     /// Draws of the bootstrap over drivers.
     pub draws: u32,
@@ -97,7 +97,7 @@ pub struct Study {
     pub beta: BetaProfile,
     /// How much places differ.
     pub spread: PlaceSpread,
-    /// How much a standard deviation of a yield is expected to change the logarithm of the odds.
+    /// Scale of the prior: change of the log-odds for a standard deviation of a yield.
     pub effect: f64,
     /// The logarithm of the mean odds of all places, over those of a place of the mean intercept: a driver who knows no
     /// places has a threshold that is less by this.
@@ -117,7 +117,7 @@ pub struct Study {
 /// How many classes of drivers there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Classes {
-    /// Two where the data tell them, else one.
+    /// Two if the data support it, otherwise one.
     Auto,
     /// So many.
     Exactly(usize),

@@ -84,7 +84,6 @@ pub(crate) struct Lane {
     pub(crate) right: Edge,
     /// It may be used against its direction, too.
     pub(crate) is_two_way: bool,
-    /// Its surroundings.
     pub(crate) surroundings: Surroundings,
     /// Speed limit [km/h].
     pub(crate) limit_kmh: f64,
@@ -95,7 +94,6 @@ pub(crate) struct Lane {
 pub(crate) enum Surroundings {
     /// A motorway with its ramps.
     Motorway,
-    /// A town.
     Town,
     /// Open country.
     Country,

@@ -72,7 +72,7 @@ impl Law {
 /// A format of map files.
 #[derive(Clone, Copy, Debug)]
 pub struct Format {
-    /// Its name.
+    /// The name of the format, for users.
     pub name: &'static str,
     /// The extensions of its files, without the dot.
     pub extensions: &'static [&'static str],

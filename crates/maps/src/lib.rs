@@ -2,6 +2,11 @@
 //!
 //! A file is read into a [`Drawing`] (points, borders, and lanes between borders), and a drawing becomes a
 //! [`Network`](laneweave_network::Network). The generator makes drawings, too.
+//!
+//! A map file is read in three steps. First come elements as they stand in the file ([`lanelet2::Document`], which can
+//! be written again). Then comes the drawing, and from it what can be driven: the network, whose lanelets are used in
+//! their own direction, and the [`Graph`], which also has two-way lanelets backwards, and conflicts. Whether lanes
+//! share a conflict area is decided exactly.
 
 mod check;
 pub mod commonroad;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// The name of the element in a problem of many lanelets: they have no borders.
+/// The element of the problem that many lanelets have in common: they lack borders.
 pub const BORDERS: &str = "borders";
 
 /// A part of a map that could not be used unchanged.
@@ -16,7 +16,7 @@ pub struct Problem {
     pub line: Option<usize>,
     /// What is wrong, and what was done about it.
     pub what: String,
-    /// The remedy.
+    /// What the user can do about it.
     pub remedy: String,
 }
 

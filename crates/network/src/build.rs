@@ -167,10 +167,11 @@ impl Network {
     /// The stretches of a chain on which a change to `side` is allowed and can end before the next junction.
     fn outside_of_junctions(&self, index: ChainIndex, side: Side) -> Vec<Beside> {
         let mut left = Vec::new();
+        let here = self.taken_on(index);
         for stretch in self.chain(index).stretches(side) {
             let there = self.taken_on(stretch.chain).into_iter();
             let there = there.map(|extent| extent.map(|station| stretch.back(station)));
-            left.extend(stretch.without(self.taken_on(index).into_iter().chain(there).collect()));
+            left.extend(stretch.without(here.iter().copied().chain(there).collect()));
         }
         left
     }

@@ -25,6 +25,16 @@ impl Point {
         (dx * dx + dy * dy).sqrt()
     }
 
+    /// Horizontal distance to the line between two points [m].
+    pub(crate) fn distance_to_segment(&self, [from, to]: [Point; 2]) -> f64 {
+        let along = (to.x - from.x, to.y - from.y);
+        let (dx, dy) = (self.x - from.x, self.y - from.y);
+        let share = (dx * along.0 + dy * along.1) / (along.0 * along.0 + along.1 * along.1);
+        // Where the two are one point, the share is no number.
+        let share = if share.is_nan() { 0.0 } else { share };
+        from.towards(&to, share.clamp(0.0, 1.0)).distance(self)
+    }
+
     /// The point halfway to `other`; the result is the same from either point, bit for bit.
     pub fn midpoint(&self, other: &Point) -> Point {
         Point { x: 0.5 * (self.x + other.x), y: 0.5 * (self.y + other.y), z: 0.5 * (self.z + other.z) }
@@ -101,7 +111,7 @@ impl Polyline {
         Polyline::new(all.iter().map(|f| left.at(f * left.length()).midpoint(&right.at(f * right.length()))))
     }
 
-    /// Its points.
+    /// Its points, from its start to its end.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
@@ -121,7 +131,7 @@ impl Polyline {
     }
 
     /// The segment that contains `station`, and the distance along it; the outer segments are prolonged.
-    fn segment(&self, station: f64) -> (usize, f64) {
+    pub(crate) fn segment(&self, station: f64) -> (usize, f64) {
         let after = self.stations.partition_point(|s| *s <= station).clamp(1, self.stations.len() - 1);
         let (from, to) = (self.stations[after - 1], self.stations[after]);
         (after - 1, (station - from) / (to - from))
@@ -131,6 +141,11 @@ impl Polyline {
     pub fn at(&self, station: f64) -> Point {
         let (segment, fraction) = self.segment(station);
         self.points[segment].towards(&self.points[segment + 1], fraction)
+    }
+
+    /// Directions of travel on its segments, counter-clockwise from east [rad].
+    pub(crate) fn headings(&self) -> impl Iterator<Item = f64> {
+        self.points.windows(2).map(|it| (it[1].y - it[0].y).atan2(it[1].x - it[0].x))
     }
 
     /// Direction of travel at `station`, counter-clockwise from east [rad].
@@ -164,12 +179,7 @@ impl Polyline {
 
     /// Horizontal distance from `point` to the nearest place of the line [m].
     pub fn distance_to(&self, point: &Point) -> f64 {
-        let to = |piece: &[Point]| {
-            let (from, along) = (piece[0], (piece[1].x - piece[0].x, piece[1].y - piece[0].y));
-            let (dx, dy) = (point.x - from.x, point.y - from.y);
-            let share = (dx * along.0 + dy * along.1) / (along.0 * along.0 + along.1 * along.1);
-            from.towards(&piece[1], share.clamp(0.0, 1.0)).distance(point)
-        };
+        let to = |piece: &[Point]| point.distance_to_segment([piece[0], piece[1]]);
         self.points.windows(2).map(to).fold(f64::INFINITY, f64::min)
     }
 
@@ -182,7 +192,7 @@ impl Polyline {
 }
 
 /// Share of the segment `one` at which the segment `other` crosses it, seen from above.
-fn crossing(one: &[Point], other: &[Point]) -> Option<f64> {
+pub(crate) fn crossing(one: &[Point], other: &[Point]) -> Option<f64> {
     let ([a, b], [c, d]) = ([one[0], one[1]], [other[0], other[1]]);
     let cross = |(ux, uy): (f64, f64), (vx, vy): (f64, f64)| ux * vy - uy * vx;
     let (along, across) = ((b.x - a.x, b.y - a.y), (d.x - c.x, d.y - c.y));

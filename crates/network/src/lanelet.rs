@@ -94,9 +94,9 @@ pub enum LaneUse {
 pub struct Lanelet {
     /// Its id in the map.
     pub id: i64,
-    /// Left border.
+    /// Left border, in the direction of travel.
     pub left_border: Polyline,
-    /// Right border.
+    /// Right border, in the direction of travel.
     pub right_border: Polyline,
     /// Centre line, whose length is the lanelet's.
     pub centre: Polyline,

@@ -44,7 +44,7 @@ pub struct Fault {
     pub place: String,
     /// The problem.
     pub what: String,
-    /// The remedy.
+    /// What the user can do about it.
     pub remedy: String,
 }
 

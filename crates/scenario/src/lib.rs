@@ -11,7 +11,7 @@ mod script;
 mod source;
 pub mod style;
 
-pub use capacity::{Bottleneck, Capacity};
+pub use capacity::{Bottleneck, Capacity, Estimate};
 pub use fault::{Fault, FaultKind, did_you_mean};
 pub use recording::{elsewhere, open_recording, open_recordings, unreadable};
 pub use remarks::{Remark, remarks};

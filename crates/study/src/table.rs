@@ -231,7 +231,7 @@ pub enum TableError {
         /// Columns of the table.
         columns: usize,
     },
-    /// A cell has not the type of its column.
+    /// A cell does not have the type of its column.
     #[error("{}: column {column} holds {kind:?}, not {cell}", path.display())]
     Cell {
         /// The table's file.

@@ -34,7 +34,7 @@ pub enum Request {
     Comes(PageId, mpsc::Sender<Arc<str>>),
     /// It asks for something.
     Asks(PageId, Asked),
-    /// It goes.
+    /// A page is closed.
     Goes(PageId),
     /// Answers with the time [s] and the hash of all vehicles.
     State(std::sync::mpsc::Sender<(f64, u64)>),
@@ -59,7 +59,7 @@ struct Pace {
     from: (f64, Instant),
 }
 
-/// The stage.
+/// What the thread of the traffic works on.
 pub struct Stage {
     source: Box<dyn Source>,
     requests: Receiver<Request>,
@@ -208,7 +208,7 @@ impl Stage {
         Ok(())
     }
 
-    /// What has come to its end, and can be at any time, begins again.
+    /// Restarts a source that has ended, if it can go to any time.
     fn begin_again(&mut self) -> Result<(), Fault> {
         let hello = self.source.hello();
         if self.source.has_ended() && hello.can.seek {
@@ -218,7 +218,7 @@ impl Stage {
         Ok(())
     }
 
-    /// What was done by hand while time stood acts in a step: it is made, so that nothing is missing.
+    /// Simulates one step if commands wait for it, so that they take effect before saving.
     fn carry_out(&mut self) {
         if self.source.waits() {
             self.step();
@@ -290,7 +290,7 @@ impl Stage {
         }
     }
 
-    /// Tells the marks that are known by now, as long as there are new ones.
+    /// Sends new marks of events to all pages.
     fn tell_marks(&mut self) {
         let Some(marks) = self.source.marks() else { return };
         let (told, until) = self.marks_told;

@@ -7,7 +7,6 @@ use laneweave_recordings::{Extent, LaneChange, Matched};
 /// A time in which a driver could begin a change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SpellTimes {
-    /// The track.
     pub(super) track: usize,
     /// When it begins and ends [s].
     pub(super) from: f64,

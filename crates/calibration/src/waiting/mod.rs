@@ -1,4 +1,6 @@
 //! Drivers who wait: from recorded begins of changes to the weights of the desire that came before.
+//!
+//! `second.rs` has the likelihood of one second, `likelihood.rs` that of one driver, and `fit.rs` that of all of them.
 
 mod design;
 mod fit;

@@ -14,7 +14,7 @@ use laneweave_studies::branch::{Differences, Setting, Twins, page};
 use super::say;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct BranchArguments {
     /// The folder with the results of a run; the run is repeated.
     #[arg(value_name = "OUT")]
     out: PathBuf,
@@ -30,9 +30,9 @@ pub(crate) struct Arguments {
     into: Option<PathBuf>,
 }
 
-impl Arguments {
+impl BranchArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { out, at, settings, into } = self;
+        let BranchArguments { out, at, settings, into } = self;
         let record = Record::open(&out)?;
         let folder = into.unwrap_or_else(|| out.join(BRANCH));
         if folder.join(SCENARIO).exists() {
@@ -73,16 +73,13 @@ impl Arguments {
     }
 }
 
-const VEHICLES: [Column; 10] = [
+const VEHICLES: [Column; 8] = [
     Column::integer("vehicle"),
     Column::text("style"),
     Column::text("class"),
     Column::real("since_s"),
     Column::integer("base_lane_changes"),
     Column::integer("branch_lane_changes"),
-    Column::real("base_left_s"),
-    Column::real("branch_left_s"),
-    // The two columns before have the old names.
     Column::real("base_completed_s"),
     Column::real("branch_completed_s"),
 ];
@@ -108,7 +105,7 @@ fn tables(
     let mut table = TableWriter::create(&vehicles, format, &VEHICLES)?;
     for (id, it) in &differences.vehicles {
         let [base, branch] = it.lane_changes;
-        let [base_left, branch_left] = it.left_s;
+        let [base_completed, branch_completed] = it.completed_s;
         table.row(&[
             (*id).into(),
             it.style.as_str().into(),
@@ -116,10 +113,8 @@ fn tables(
             seconds(it.since_s).into(),
             base.into(),
             branch.into(),
-            base_left.map(seconds).into(),
-            branch_left.map(seconds).into(),
-            base_left.map(seconds).into(),
-            branch_left.map(seconds).into(),
+            base_completed.map(seconds).into(),
+            branch_completed.map(seconds).into(),
         ])?;
     }
     table.finish()?;

@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::say;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct CheckArguments {
     /// A map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz), or with --map a recording (.csv of INTERACTION,
     /// highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad: .xml). Several recordings that continue
     /// one another are joined; several CommonRoad files without --map are a set, each with its own map.
@@ -96,7 +96,7 @@ fn law() -> impl TypedValueParser<Value = Law> {
     PossibleValuesParser::new(["germany", "usa"]).map(|it| if it == "usa" { Law::Usa } else { Law::Germany })
 }
 
-impl Arguments {
+impl CheckArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         match &self.map {
             Some(map) => self.recording(map),

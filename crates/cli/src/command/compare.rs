@@ -21,7 +21,7 @@ use super::say;
 const USUAL: [Model; 5] = [Model::Mcdm, Model::Mobil, Model::Lmrs, Model::Null, Model::ConstantHazard];
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct CompareArguments {
     /// Scenario files (.toml), or maps.
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::FilePath, required = true)]
     inputs: Vec<PathBuf>,
@@ -47,9 +47,9 @@ pub(crate) struct Arguments {
     size: Limit,
 }
 
-impl Arguments {
+impl CompareArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { inputs, models, seeds, demand, duration, warmup, out, size } = self;
+        let CompareArguments { inputs, models, seeds, demand, duration, warmup, out, size } = self;
         let models = if models.is_empty() { USUAL.to_vec() } else { models };
         let threads = available_parallelism().map_or(1, |it| it.get());
         let mut asked = Vec::new();
@@ -126,9 +126,7 @@ fn seeds_from(first: u64, count: u64) -> Result<Vec<u64>, Fault> {
 fn columns() -> Vec<Column> {
     let named = [Column::text("input"), Column::text("model"), Column::integer("seed")];
     let measured = MEASURES.iter().map(|it| Column::real(it.column));
-    // The new names of the columns `left` and `waiting`.
-    let renamed = [Column::real("completed"), Column::real("waiting_to_enter")];
-    named.into_iter().chain(measured).chain(renamed).collect()
+    named.into_iter().chain(measured).collect()
 }
 
 /// Appends a row for each run.
@@ -136,8 +134,7 @@ fn append(table: &mut TableWriter, input: &str, comparison: &Comparison) -> Resu
     for trial in &comparison.trials {
         let named = [input.into(), trial.model.name().into(), (trial.seed as i64).into()];
         let measured = MEASURES.iter().map(|it| (it.of)(&trial.outcome).into());
-        let renamed = [trial.outcome.left, trial.outcome.waiting].map(Cell::from);
-        table.row(&named.into_iter().chain(measured).chain(renamed).collect::<Vec<Cell>>())?;
+        table.row(&named.into_iter().chain(measured).collect::<Vec<Cell>>())?;
     }
     Ok(())
 }

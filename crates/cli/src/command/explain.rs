@@ -10,7 +10,7 @@ use laneweave::{Fault, Simulation};
 use super::say;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct ExplainArguments {
     /// The folder with the results of a run; the run is repeated.
     #[arg(value_name = "OUT")]
     out: PathBuf,
@@ -28,9 +28,9 @@ pub(crate) struct Arguments {
     summary: bool,
 }
 
-impl Arguments {
+impl ExplainArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { out, vehicle, time, flip, summary } = self;
+        let ExplainArguments { out, vehicle, time, flip, summary } = self;
         let Record { scenario, origin, end } = Record::open(&out)?;
         if vehicle.is_none() && !summary {
             let remedy = "give a vehicle with --vehicle ID, or use --summary for all";

@@ -21,7 +21,7 @@ use super::say;
 const MOST_CLASSES: usize = 6;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct FitArguments {
     /// The recordings (.csv of INTERACTION, highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad:
     /// .xml, with their own maps). Those that continue one another are joined.
     #[arg(value_name = "RECORDING", value_hint = ValueHint::FilePath, required = true)]
@@ -92,7 +92,7 @@ fn formulas() -> impl TypedValueParser<Value = Formulas> {
         .map(|it| if it == "literal" { Formulas::Literal } else { Formulas::Repaired })
 }
 
-impl Arguments {
+impl FitArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         self.check_lead()?;
         self.check_position_error()?;

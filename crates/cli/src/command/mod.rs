@@ -50,52 +50,52 @@ pub(crate) struct Cli {
 enum Command {
     /// Simulate a scenario, or a bare map.
     #[command(after_help = examples::RUN)]
-    Run(run::Arguments),
+    Run(run::RunArguments),
     /// Show traffic on its map in the browser, in 3-D, with the reasons of its drivers, and change it while it drives.
     #[command(after_help = examples::VIEW)]
-    View(view::Arguments),
+    View(view::ViewArguments),
     /// Make pictures of traffic from above, one after the other, without a display.
     #[command(after_help = examples::RENDER)]
-    Render(render::Arguments),
+    Render(render::RenderArguments),
     /// Explain why a driver of a run changed lanes, waited, or stayed in its lane.
     #[command(after_help = examples::EXPLAIN)]
-    Explain(explain::Arguments),
+    Explain(explain::ExplainArguments),
     /// Repeat a run with one thing changed from a time on, and report what differs (a counterfactual).
     #[command(after_help = examples::BRANCH)]
-    Branch(branch::Arguments),
+    Branch(branch::BranchArguments),
     /// Run scenarios with several lane-change models and seeds, and compare the results.
     #[command(after_help = examples::COMPARE)]
-    Compare(compare::Arguments),
+    Compare(compare::CompareArguments),
     /// Run experiments: the drivers beside published values, and the claims of the paper.
     #[command(after_help = examples::REPRODUCE)]
-    Reproduce(reproduce::Arguments),
+    Reproduce(reproduce::ReproduceArguments),
     /// Report what a map or a recording contains, and the problems in it.
     #[command(after_help = examples::CHECK)]
-    Check(check::Arguments),
+    Check(check::CheckArguments),
     /// Record the traffic of a run as a drone would: its view, its frame rate, its errors.
     #[command(after_help = examples::OBSERVE)]
-    Observe(observe::Arguments),
+    Observe(observe::ObserveArguments),
     /// Replay a recording: its vehicles drive as they were recorded, and some of them react.
     #[command(after_help = examples::REPLAY)]
-    Replay(replay::Arguments),
+    Replay(replay::ReplayArguments),
     /// Fit driving styles to recordings, with their uncertainty.
     #[command(after_help = examples::FIT)]
-    Fit(fit::Arguments),
+    Fit(fit::FitArguments),
     /// Join recordings.
     #[command(subcommand, after_help = examples::RECORDING)]
-    Recording(recording::Deed),
+    Recording(recording::RecordingCommand),
     /// List the sensible routes from one lanelet of a map to another.
     #[command(after_help = examples::ROUTES)]
-    Routes(routes::Arguments),
+    Routes(routes::RoutesArguments),
     /// Create a scenario file.
     #[command(subcommand, after_help = examples::SCENARIO)]
-    Scenario(scenario::Deed),
+    Scenario(scenario::ScenarioCommand),
     /// Generate a map.
     #[command(subcommand, after_help = examples::GENERATE)]
     Generate(generate::Kind),
     /// List, print or create driver styles.
     #[command(subcommand, after_help = examples::STYLES)]
-    Styles(styles::Deed),
+    Styles(styles::StylesCommand),
     /// Print the JSON schema of scenario files.
     #[command(after_help = examples::SCHEMA)]
     Schema,

@@ -12,7 +12,7 @@ use super::recording::{told, write};
 use super::say;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct ObserveArguments {
     /// The folder with the results of a run; the run is repeated.
     #[arg(value_name = "OUT_DIR")]
     out: PathBuf,
@@ -53,7 +53,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
     Ok([number(east.trim())?, number(north.trim())?])
 }
 
-impl Arguments {
+impl ObserveArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         let drone = self.drone()?;
         let observed = drone.observe(&watched(&self.out, [self.from, self.until.unwrap_or(f64::INFINITY)])?);

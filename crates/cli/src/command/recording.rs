@@ -12,7 +12,7 @@ use laneweave::study::PartialFile;
 use super::{examples, say};
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Deed {
+pub(crate) enum RecordingCommand {
     /// Join recordings that continue one another.
     #[command(after_help = examples::RECORDING_JOIN)]
     Join(Join),
@@ -31,9 +31,9 @@ pub(crate) struct Join {
     columns: Option<PathBuf>,
 }
 
-impl Deed {
+impl RecordingCommand {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Deed::Join(Join { recordings, to, columns }) = self;
+        let RecordingCommand::Join(Join { recordings, to, columns }) = self;
         let (recording, problems) = open_recordings(&recordings, columns.as_deref())?;
         write(&to, &recording)?;
         let problems: String = problems.iter().map(|it| format!("  {it}\n")).collect();

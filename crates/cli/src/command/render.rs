@@ -13,7 +13,7 @@ use super::say;
 use super::shown::Shown;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct RenderArguments {
     #[command(flatten)]
     shown: Shown,
     /// Folder of the pictures. Pictures in it with the same names are replaced.
@@ -59,9 +59,9 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     size.ok_or_else(|| "write WIDTHxHEIGHT, each 1 to 16384 pixels".into())
 }
 
-impl Arguments {
+impl RenderArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { shown, out, camera, size, every, from, until } = self;
+        let RenderArguments { shown, out, camera, size, every, from, until } = self;
         if every <= 0.0 {
             return Err(Fault::new(
                 "--every",

@@ -24,7 +24,7 @@ use super::stop::Stop;
 const USUAL: [Model; 2] = [Model::Null, Model::Mobil];
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct ReplayArguments {
     /// The recording (.csv of INTERACTION, highD, inD, rounD, exiD or NGSIM, any other with --columns; CommonRoad:
     /// .xml). Several that continue one another are joined.
     #[arg(value_name = "RECORDING", value_hint = ValueHint::FilePath, required = true)]
@@ -82,7 +82,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-impl Arguments {
+impl ReplayArguments {
     pub(crate) fn execute(self) -> Result<ExitCode, Fault> {
         let (scenario, origin) = self.scenario()?;
         let stop = Stop::listen()?;

@@ -17,7 +17,7 @@ use super::say;
 const ALL: &str = "all";
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct ReproduceArguments {
     /// An experiment, or all of them; may be repeated.
     #[arg(value_name = "EXPERIMENT", value_parser = names(), default_value = ALL)]
     experiments: Vec<String>,
@@ -36,9 +36,9 @@ fn names() -> PossibleValuesParser {
     PossibleValuesParser::new(EXPERIMENTS.iter().map(|it| it.name).chain([ALL]))
 }
 
-impl Arguments {
+impl ReproduceArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
-        let Arguments { experiments, seeds, quick, out } = self;
+        let ReproduceArguments { experiments, seeds, quick, out } = self;
         let threads = available_parallelism().map_or(1, |it| it.get());
         let usual = if quick { Effort::quick(threads) } else { Effort::usual(threads) };
         let effort = Effort { seeds: seeds.unwrap_or(usual.seeds), ..usual };

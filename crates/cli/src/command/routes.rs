@@ -15,7 +15,7 @@ use super::numbers::{id, number};
 use super::say;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct RoutesArguments {
     /// The map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz).
     #[arg(value_hint = ValueHint::FilePath)]
     map: PathBuf,
@@ -65,7 +65,7 @@ struct Leg {
     backward: bool,
 }
 
-impl Arguments {
+impl RoutesArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         if self.longest.is_nan() || self.longest < 1.0 {
             return Err(Fault::new(

@@ -26,7 +26,7 @@ use super::stop::Stop;
 const LISTED_PROBLEMS: usize = 3;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct RunArguments {
     /// A scenario file (.toml), or a map (Lanelet2: .osm, CommonRoad: .xml; compressed: .osm.gz); with --resume the
     /// folder of results of an incomplete run.
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
@@ -140,7 +140,7 @@ fn sumo_file(text: &str) -> Result<SumoFile, String> {
     }
 }
 
-impl Arguments {
+impl RunArguments {
     pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
         let screen = self.screen;
         if self.resume {

@@ -12,7 +12,7 @@ use super::check::Reading;
 use super::{examples, say};
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Deed {
+pub(crate) enum ScenarioCommand {
     /// Write a scenario for a map to edit, with the meaning and the default of every key.
     #[command(after_help = examples::SCENARIO_NEW)]
     New(New),
@@ -33,10 +33,10 @@ pub(crate) struct New {
     reading: Reading,
 }
 
-impl Deed {
+impl ScenarioCommand {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         match self {
-            Deed::New(new) => new.execute(),
+            ScenarioCommand::New(new) => new.execute(),
         }
     }
 }

@@ -11,7 +11,7 @@ use laneweave::{Fault, Source};
 use super::{examples, say};
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Deed {
+pub(crate) enum StylesCommand {
     /// List the built-in styles, each with a short description.
     #[command(after_help = examples::STYLES_LIST)]
     List,
@@ -35,10 +35,10 @@ pub(crate) enum Deed {
     },
 }
 
-impl Deed {
+impl StylesCommand {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         match self {
-            Deed::List => {
+            StylesCommand::List => {
                 let widest = BUILT_IN.iter().map(|it| it.name.len()).max().unwrap_or(0);
                 let mut text = String::new();
                 for style in BUILT_IN {
@@ -47,8 +47,8 @@ impl Deed {
                 }
                 say(&text)
             }
-            Deed::Show { name } => say(&named(&name)?.text),
-            Deed::New { name, from, file } => {
+            StylesCommand::Show { name } => say(&named(&name)?.text),
+            StylesCommand::New { name, from, file } => {
                 let text = copy(&named(&from)?, &name)?;
                 let file = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
                 if file.extension().is_none_or(|it| it != "toml") {

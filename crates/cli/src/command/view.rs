@@ -17,7 +17,7 @@ use super::shown::Shown;
 use super::stop::Stop;
 
 #[derive(Debug, Args)]
-pub(crate) struct Arguments {
+pub(crate) struct ViewArguments {
     #[command(flatten)]
     shown: Shown,
     /// Show beside a run that has ended its twin: the time from which on the twin has other settings, in seconds as in
@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
     every: f64,
 }
 
-impl Arguments {
+impl ViewArguments {
     /// Serves the page until the user stops it.
     pub(crate) fn execute(self) -> Result<(), Fault> {
         let mut source = match self.at {

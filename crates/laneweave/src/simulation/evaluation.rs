@@ -13,7 +13,7 @@ use super::Simulation;
 /// What a driver makes of its lanes at this instant, and is about to do.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evaluation {
-    /// The vehicle.
+    /// The vehicle whose driver was asked.
     pub vehicle: VehicleId,
     /// Time [s].
     pub time_s: f64,
@@ -109,7 +109,7 @@ pub struct Leader {
 /// A side to which a driver may change.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SideEvaluation {
-    /// The side.
+    /// The side of the lane to which it would change.
     pub side: Side,
     /// G: the utility of the change. `None`: safety forbids it.
     pub utility: Option<f64>,

@@ -72,7 +72,7 @@ pub struct Occurrence {
 pub struct LaneChange {
     /// Which vehicle.
     pub vehicle: VehicleId,
-    /// Its class.
+    /// The class of the vehicle that changes lanes.
     pub class: Class,
     /// Time when the centre crossed the line, or the change was aborted [s].
     pub time_s: f64,
@@ -119,11 +119,11 @@ pub struct LaneChange {
 /// Two vehicles that began to touch each other; the one with the smaller id comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Incident {
-    /// Its kind.
+    /// Whether it is a collision or an overlap.
     pub kind: IncidentKind,
     /// Time when it was detected [s].
     pub time_s: f64,
-    /// The vehicles.
+    /// The two vehicles, the smaller id first.
     pub vehicles: [VehicleId; 2],
     /// The ids of the lanelets on which their front bumpers are.
     pub lanelets: [i64; 2],

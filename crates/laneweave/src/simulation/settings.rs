@@ -10,7 +10,7 @@ use super::Simulation;
 /// A style of the scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StyleState {
-    /// Its name.
+    /// The name of the style, as commands take it.
     pub name: String,
     /// One sentence about it.
     pub description: String,

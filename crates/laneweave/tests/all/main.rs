@@ -7,6 +7,7 @@ mod capacity;
 mod checkpoint;
 mod crates;
 mod damaged_recordings;
+mod door;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;
 mod explain;

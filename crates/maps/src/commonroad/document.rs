@@ -19,7 +19,6 @@ pub(super) struct Document {
     pub(super) tags: Vec<String>,
 }
 
-/// The element `lanelet`.
 #[derive(Debug, Default)]
 pub(super) struct LaneletElement {
     pub(super) id: i64,

@@ -8,7 +8,6 @@ use libm::{asinh, atan, atan2, atanh, cosh, fabs, sincos, sinh, sqrt, tan};
 
 /// Equatorial radius [m].
 const RADIUS: f64 = 6_378_137.0;
-/// Flattening.
 const FLATTENING: f64 = 1.0 / 298.257_223_563;
 /// Third flattening.
 const N: f64 = FLATTENING / (2.0 - FLATTENING);

@@ -10,3 +10,4 @@ mod random_maps;
 mod real_maps;
 mod robustness;
 mod towns;
+mod work;

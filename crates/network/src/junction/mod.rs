@@ -1,4 +1,8 @@
 //! Junctions: where chains conflict, which has priority, and where drivers stop.
+//!
+//! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zone.rs`), who has
+//! priority in each (`precedence.rs`), where drivers stop (`on_chain.rs`), where they turn (`turning.rs`), and the
+//! signal programs (`light.rs`, `signals.rs`). Who holds which zone is the simulator's.
 
 mod contact;
 mod kinship;
@@ -77,6 +81,8 @@ pub struct Junctions {
     pub made: Vec<SignalPlan>,
     /// The plans in which traffic extends greens.
     pub actuated: Vec<SignalPlan>,
+    /// Number of comparisons of two places or two lights that it took to find them.
+    pub comparisons: u64,
     chains: Vec<OnChain>,
     /// Where turns begin, by chain [m].
     turns: Vec<Vec<f64>>,
@@ -92,7 +98,7 @@ impl Junctions {
     pub fn new(network: &Network, regulations: &Regulations) -> Junctions {
         let kinship = Kinship::of(network);
         let contacts = contact::contacts(network);
-        let mut zones = zone::zones(&kinship, &contacts);
+        let mut zones = zone::zones(&kinship, &contacts.of_pairs);
         precedence::settle(network, &kinship, regulations, &mut zones);
         let mut chains = vec![OnChain::EMPTY; network.chains.len()];
         for (zone, index) in zones.iter().zip(0..) {
@@ -104,15 +110,17 @@ impl Junctions {
         for chain in &mut chains {
             chain.crossings.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.zone.cmp(&b.zone)));
         }
-        let mut junctions = Junctions { zones, chains, ..Junctions::default() };
+        let comparisons = contacts.comparisons;
+        let mut junctions = Junctions { zones, chains, comparisons, ..Junctions::default() };
         junctions.place_stops(network, regulations);
         junctions.note_places();
         junctions.look_beyond(network);
         junctions.turns = turning::turns(network);
-        junctions.nearby = nearby::nearby(network, &contacts);
-        junctions.made = signals::made_plans(network, &junctions);
-        let made = junctions.made.clone();
+        junctions.nearby = nearby::nearby(network, &contacts.of_pairs);
+        let (made, comparisons) = signals::made_plans(network, &junctions);
+        junctions.comparisons += comparisons;
         junctions.follow(&made);
+        junctions.made = made;
         junctions
     }
 
@@ -130,7 +138,7 @@ impl Junctions {
     }
 
     pub(crate) fn light_conflicts(&self, network: &Network) -> Vec<LightConflict> {
-        signals::conflicts(network, self)
+        signals::conflicts(network, self).found
     }
 
     /// For each zone and each of its sides whether its drivers pass a light on `network`, to which these junctions

@@ -1,9 +1,11 @@
 //! Which lights conflict, and the programs of those that do: phases, one after the other.
 
+use std::collections::BTreeSet;
+
 use super::light::{LightIndex, Phase, Program};
 use super::{Junctions, Precedence, Sign, Touch, ZoneIndex};
 use crate::build::Network;
-use crate::chain::ChainIndex;
+use crate::chain::{ChainIndex, Position};
 
 /// A program for several lights: phases that follow each other and repeat.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,23 +135,27 @@ impl SignalPlan {
 }
 
 /// The pairs of lights that conflict.
-pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightConflict> {
+pub(super) struct Conflicts {
+    pub(super) found: Vec<LightConflict>,
+    /// Number of pairs that were compared.
+    comparisons: u64,
+}
+
+/// The pairs of lights that conflict.
+pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Conflicts {
     between(junctions, &fields(network, junctions))
 }
 
 /// The plans for lights without a program. Cycle 60 s; groups without conflicts follow each other in the order of
 /// ids; yellow 3 s; all red for the clearance distance at 8 m/s, at least 2 s. The groups share the rest as green in
-/// equal parts.
-pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<SignalPlan> {
+/// equal parts. With them comes the number of pairs of lights that were compared.
+pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> (Vec<SignalPlan>, u64) {
     let mut plans = Vec::new();
     let fields = fields(network, junctions);
-    let conflicts = between(junctions, &fields);
-    let conflict = |a: usize, b: usize| {
-        let both = [a.min(b), a.max(b)].map(|it| LightIndex(it as u32));
-        conflicts.iter().any(|it| it.lights == both)
-    };
-    for members in junctions_of(junctions.lights.len(), conflict) {
-        let groups = groups(&members, conflict);
+    let Conflicts { found, comparisons } = between(junctions, &fields);
+    let rivals = rivals(fields.len(), &found);
+    for members in junctions_of(&rivals) {
+        let groups = groups(&members, &rivals);
         if groups.len() < 2 {
             continue;
         }
@@ -165,11 +171,20 @@ pub(super) fn made_plans(network: &Network, junctions: &Junctions) -> Vec<Signal
         };
         plans.push(SignalPlan { offset: 0.0, turns: groups.iter().map(turn).collect() });
     }
-    plans
+    (plans, comparisons)
 }
 
+/// What lies behind each light.
 fn fields(network: &Network, junctions: &Junctions) -> Vec<Field> {
-    (0..junctions.lights.len()).map(|it| Field::of(network, junctions, LightIndex(it as u32))).collect()
+    let mut stops: Vec<Vec<Position>> = vec![Vec::new(); junctions.lights.len()];
+    for (chain, index) in junctions.chains.iter().zip(0..) {
+        for stop in &chain.stops {
+            if let Sign::Light(light) = stop.sign {
+                stops[light.at()].push(Position::new(ChainIndex(index), stop.station));
+            }
+        }
+    }
+    stops.iter().map(|it| Field::beyond(network, junctions, it)).collect()
 }
 
 /// For each zone and each of its sides whether its drivers pass a light.
@@ -181,10 +196,14 @@ pub(super) fn lit_sides(network: &Network, junctions: &Junctions) -> Vec<[bool; 
     is_lit
 }
 
-fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
+fn between(junctions: &Junctions, fields: &[Field]) -> Conflicts {
     let is_ordered = |zone: u32| matches!(junctions.zones[zone as usize].precedence, Precedence::Side(_));
-    let pairs = (0..fields.len()).flat_map(|a| (a + 1..fields.len()).map(move |b| (a, b)));
-    let conflict = |(a, b): (usize, usize)| {
+    // The lights whose drivers reach each side of each zone.
+    let mut reaching: Vec<[Vec<usize>; 2]> = vec![Default::default(); junctions.zones.len()];
+    for (field, light) in fields.iter().zip(0..) {
+        field.zones.iter().for_each(|(zone, side)| reaching[*zone as usize][usize::from(*side)].push(light));
+    }
+    let conflict = |a: usize, b: usize| {
         let meet = |it: &&(u32, u8)| fields[b].zones.contains(&(it.0, 1 - it.1));
         let (zone, side) = *fields[a].zones.iter().filter(meet).min_by_key(|it| is_ordered(it.0))?;
         Some(LightConflict {
@@ -194,25 +213,42 @@ fn between(junctions: &Junctions, fields: &[Field]) -> Vec<LightConflict> {
             is_ordered: is_ordered(zone),
         })
     };
-    pairs.filter_map(conflict).collect()
+    let (mut found, mut comparisons) = (Vec::new(), 0);
+    for (field, a) in fields.iter().zip(0..) {
+        let opposite = |it: &(u32, u8)| &reaching[it.0 as usize][usize::from(1 - it.1)];
+        let others: BTreeSet<usize> = field.zones.iter().flat_map(opposite).copied().collect();
+        comparisons += others.len() as u64;
+        found.extend(others.range(a + 1..).filter_map(|b| conflict(a, *b)));
+    }
+    Conflicts { found, comparisons }
+}
+
+/// For each of so many lights those that conflict with it, in order.
+fn rivals(count: usize, conflicts: &[LightConflict]) -> Vec<BTreeSet<usize>> {
+    let mut rivals = vec![BTreeSet::new(); count];
+    for [a, b] in conflicts.iter().map(|it| it.lights.map(LightIndex::at)) {
+        rivals[a].insert(b);
+        rivals[b].insert(a);
+    }
+    rivals
 }
 
 /// The lights of each junction: those that conflict, directly or through others, in order.
-fn junctions_of(count: usize, conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
-    let mut left: Vec<usize> = (0..count).collect();
+fn junctions_of(rivals: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
+    let mut is_known = vec![false; rivals.len()];
     let mut found = Vec::new();
-    while !left.is_empty() {
-        let mut members = vec![left.remove(0)];
-        let mut at = 0;
-        while at < members.len() {
-            let here = members[at];
-            let (new, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|it| conflict(here, *it));
-            members.extend(new);
-            left = others;
-            at += 1;
+    for first in 0..rivals.len() {
+        let (mut members, mut open) = (Vec::new(), vec![first]);
+        while let Some(light) = open.pop() {
+            if !std::mem::replace(&mut is_known[light], true) {
+                members.push(light);
+                open.extend(&rivals[light]);
+            }
         }
-        members.sort_unstable();
-        found.push(members);
+        if !members.is_empty() {
+            members.sort_unstable();
+            found.push(members);
+        }
     }
     found
 }
@@ -223,7 +259,7 @@ fn all_red<'a>(fields: impl Iterator<Item = &'a Field>) -> f64 {
 }
 
 /// Maximal sets of members that do not conflict: each begins with the first member that has had no phase.
-fn groups(members: &[usize], conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+fn groups(members: &[usize], rivals: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for first in members {
         if groups.iter().any(|group| group.contains(first)) {
@@ -231,7 +267,7 @@ fn groups(members: &[usize], conflict: impl Fn(usize, usize) -> bool) -> Vec<Vec
         }
         let mut group = vec![*first];
         for other in members {
-            if !group.contains(other) && group.iter().all(|it| !conflict(*it, *other)) {
+            if !group.contains(other) && group.iter().all(|it| !rivals[*it].contains(other)) {
                 group.push(*other);
             }
         }
@@ -249,17 +285,15 @@ struct Field {
 }
 
 impl Field {
-    fn of(network: &Network, junctions: &Junctions, light: LightIndex) -> Field {
+    /// What lies beyond the `stops` of a light.
+    fn beyond(network: &Network, junctions: &Junctions, stops: &[Position]) -> Field {
         /// Zones further beyond a light, or beyond the last zone, belong to another junction [m].
         const REACH: f64 = 80.0;
         const NEXT: f64 = 25.0;
         let mut field = Field { zones: Vec::new(), clearance: 0.0 };
         // Chain, station there, distance from the stop to the chain's start, and to the end of the last zone.
-        let mut open: Vec<(ChainIndex, f64, f64, f64)> = Vec::new();
-        for (index, chain) in junctions.chains.iter().enumerate() {
-            let stops = chain.stops.iter().filter(|it| it.sign == Sign::Light(light));
-            open.extend(stops.map(|it| (ChainIndex(index as u32), it.station, -it.station, NEXT)));
-        }
+        let mut open: Vec<(ChainIndex, f64, f64, f64)> =
+            stops.iter().map(|it| (it.chain, it.x, -it.x, NEXT)).collect();
         while let Some((chain, from, base, mut reached)) = open.pop() {
             for crossing in &junctions.on(chain).crossings {
                 let reach = junctions.reach(*crossing);

@@ -24,8 +24,6 @@ const LISTED_QUEUES: usize = 3;
 pub struct Summary {
     /// Vehicles that entered in the measured time; those on the road at its begin count as entered.
     pub entered: u64,
-    /// Vehicles that completed their trip; old name of `completed`.
-    pub left: u64,
     /// Vehicles that completed their trip.
     pub completed: u64,
     /// Vehicles that a user put on the road; they are among those that entered.
@@ -34,26 +32,20 @@ pub struct Summary {
     pub removed: u64,
     /// Commands of the scenario that were not possible when they were due.
     pub commands_refused: u64,
-    /// Of those that completed it, those with a trip within one lanelet, which are left out of the means over trips.
+    /// Completed trips that start and end on one lanelet; they are not in the means over trips.
     pub trips_of_one_lanelet: u64,
     /// Vehicles on the road at the end.
     pub on_road: u64,
-    /// Vehicles that wait to enter at the end; old name of `waiting_to_enter`.
-    pub waiting: u64,
     /// Vehicles that wait to enter at the end: the insertion backlog.
     pub waiting_to_enter: u64,
-    /// The estimated capacity of the map [veh/h]; old name of `estimated_capacity_veh_h`.
-    pub entrance_capacity: f64,
     /// The estimated capacity of the map [veh/h].
     pub estimated_capacity_veh_h: f64,
     /// The bottleneck: what is full first when the demand grows.
     pub bottleneck: Option<String>,
-    /// Lane changes.
+    /// Completed crossings of all three kinds.
     pub lane_changes: u64,
     /// Of them, between lanes of equal worth for the route.
     pub lane_changes_discretionary: u64,
-    /// Of them, route-driven (mandatory) ones; old name of `lane_changes_route_driven`.
-    pub lane_changes_route: u64,
     /// Of them, route-driven (mandatory) ones.
     pub lane_changes_route_driven: u64,
     /// Of them, those made only to keep to the slow side.
@@ -127,7 +119,7 @@ pub struct Summary {
     pub threads: usize,
     /// Version of the program.
     pub version: &'static str,
-    /// The map.
+    /// The path of the map, as the scenario names it.
     pub map: String,
 }
 
@@ -157,21 +149,17 @@ impl Summary {
         let lane_changes = counts.discretionary_changes + counts.route_changes + counts.keeping_changes;
         Summary {
             entered: counts.entered,
-            left: counts.left,
             completed: counts.left,
             inserted: counts.inserted,
             removed: counts.removed,
             commands_refused: prepared.script.refused(),
             trips_of_one_lanelet: ending.short_trips.count,
             on_road: world.on_road() as u64,
-            waiting: world.waiting() as u64,
             waiting_to_enter: world.waiting() as u64,
-            entrance_capacity: prepared.capacity.veh_h,
             estimated_capacity_veh_h: prepared.capacity.veh_h,
             bottleneck: prepared.capacity.bottleneck.map(|it| it.to_string()),
             lane_changes,
             lane_changes_discretionary: counts.discretionary_changes,
-            lane_changes_route: counts.route_changes,
             lane_changes_route_driven: counts.route_changes,
             lane_changes_keeping: counts.keeping_changes,
             lane_changes_per_veh_km: ratio(lane_changes as f64, veh_km),
@@ -257,7 +245,7 @@ impl Summary {
             "demand",
             format!(
                 "{:.0} veh/h; estimated capacity {:.0} veh/h{first}",
-                self.demand_veh_h, self.entrance_capacity
+                self.demand_veh_h, self.estimated_capacity_veh_h
             ),
         );
         let removed = match self.removed {
@@ -268,7 +256,7 @@ impl Summary {
             "vehicles",
             format!(
                 "{} entered = {} completed + {} on the road{removed}; {} waiting to enter",
-                self.entered, self.left, self.on_road, self.waiting
+                self.entered, self.completed, self.on_road, self.waiting_to_enter
             ),
         );
         // The longest queues are enough.
@@ -303,7 +291,7 @@ impl Summary {
             "{} per veh-km: {} discretionary, {} route-driven, {} keeping to the slow side",
             per_km(self.lane_changes),
             per_km(self.lane_changes_discretionary),
-            per_km(self.lane_changes_route),
+            per_km(self.lane_changes_route_driven),
             per_km(self.lane_changes_keeping)
         )
     }

@@ -129,7 +129,7 @@ impl Writer for FlowTable {
     }
 }
 
-const LANELETS: [Column; 15] = [
+const LANELETS: [Column; 14] = [
     Column::integer("lanelet"),
     Column::text("sumo_lane"),
     Column::real("length_m"),
@@ -139,8 +139,6 @@ const LANELETS: [Column; 15] = [
     Column::real("speed_mps"),
     Column::real("standing_s"),
     Column::integer("entered"),
-    // Beside its old name.
-    Column::integer("left"),
     Column::integer("completed"),
     Column::integer("changes_to_left"),
     Column::integer("changes_to_right"),
@@ -179,7 +177,6 @@ impl Writer for LaneletTable {
                 speed.into(),
                 seconds(counts.stay.standing).into(),
                 counts.begun.into(),
-                counts.ended.into(),
                 counts.ended.into(),
                 to_left.into(),
                 to_right.into(),

@@ -2,6 +2,11 @@
 //! and never writes it.
 //!
 //! A new output is a file here, a line in `outputs.rs`, and its name in [`crate::folder::RESULTS`].
+//!
+//! Outputs stand where the world is and keep plain numbers: `frame.rs` copies of vehicles, `traffic.rs` counts by
+//! lanelet, trips and lane changes that ended. They hand these over in batches to writer threads
+//! (`writer_threads.rs`), whose writers make one file each: `trajectories.rs` and the other tables, `sumo/` XML in the
+//! formats of SUMO.
 
 mod batch;
 mod commands;

@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 /// A trip that ended, or that continues when the run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Trip {
-    /// Its record.
     pub(super) record: TripRecord,
     /// Distance driven [m].
     pub(super) way: f64,

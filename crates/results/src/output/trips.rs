@@ -70,7 +70,7 @@ impl Output for Trips {
     }
 }
 
-const COLUMNS: [Column; 22] = [
+const COLUMNS: [Column; 20] = [
     Column::integer("vehicle"),
     Column::text("class"),
     Column::text("style"),
@@ -80,10 +80,7 @@ const COLUMNS: [Column; 22] = [
     Column::integer("to_lanelet"),
     Column::real("arrived_s"),
     Column::real("entered_s"),
-    // Each beside its old name.
-    Column::real("left_s"),
     Column::real("completed_s"),
-    Column::real("waiting_s"),
     Column::real("insertion_delay_s"),
     Column::real("duration_s"),
     Column::real("free_s"),
@@ -140,8 +137,6 @@ fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
         seconds(record.arrived).into(),
         seconds(record.entered).into(),
         end.map(|it| seconds(it.time)).into(),
-        end.map(|it| seconds(it.time)).into(),
-        seconds(trip.waiting()).into(),
         seconds(trip.waiting()).into(),
         end.map(|it| seconds(it.duration)).into(),
         record.free_time.into(),

@@ -2,6 +2,10 @@
 //!
 //! A page needs no network and no other file; its figures are inline SVG that takes its colours from the page. A short
 //! script saves them as files; without it the page can be read as well.
+//!
+//! Any command makes a [`Page`] of sections: tables and captions, and the figures of `laneweave_study` as inline SVG,
+//! each with its data as CSV and links to both (`download.rs`). The report of a run (`run/`) is drawn from what its
+//! output kept (`kept/`).
 
 pub mod classes;
 mod download;

@@ -9,7 +9,7 @@ use super::table::Table;
 
 const STYLE_SHEET: &str = include_str!("style.css");
 
-/// A page.
+/// A report as one HTML file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Page {
     title: String,

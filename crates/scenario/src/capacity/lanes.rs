@@ -1,9 +1,9 @@
 //! The loads of lanes and lights.
 
-use laneweave_network::{ChainIndex, Light, Position, Program, Side, Sign};
+use laneweave_network::{ChainIndex, Light, Position, Side, Sign};
 use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
-use super::{Bottleneck, Load, Roads, once, side_by_side, weaving};
+use super::{Bottleneck, Load, Roads, weaving};
 
 /// A light at a place of a lane also belongs to the lanes beside it, if it is no further away [m].
 const BESIDE: f64 = 20.0;
@@ -11,7 +11,6 @@ const BESIDE: f64 = 20.0;
 /// The loads of lanes: at the start of each part that is used and of each limit, and at each light. Vehicles that may
 /// use several lanes side by side fill them together; vehicles that need one lane fill it alone.
 pub(super) fn loads(roads: &Roads) -> Vec<Load> {
-    let mut lanes = Lanes { roads, streams: Vec::new(), lights: Vec::new(), left: Vec::new() };
     let mut loads = Vec::new();
     for chain in roads.chains() {
         let here = roads.network.chain(chain);
@@ -21,30 +20,20 @@ pub(super) fn loads(roads: &Roads) -> Vec<Load> {
         let mut stations: Vec<f64> = starts.chain(limits).chain(stops).collect();
         stations.sort_by(f64::total_cmp);
         stations.dedup();
-        loads.extend(stations.into_iter().map(|it| lanes.load(chain, it)));
+        loads.extend(stations.into_iter().map(|it| roads.load(chain, it)));
     }
-    loads.extend(roads.assignment.changes.iter().filter_map(|it| lanes.load_by_changes(it)));
+    loads.extend(roads.assignment.changes.iter().filter_map(|it| roads.load_by_changes(it)));
     loads
 }
 
-struct Lanes<'a> {
-    roads: &'a Roads<'a>,
-    /// Largest flows by limit [m/s, veh/s].
-    streams: Vec<(f64, f64)>,
-    /// Flows through lights [veh/s], by light and limit [m/s].
-    lights: Vec<((usize, f64), f64)>,
-    /// Remaining share of the capacity of lanes side by side, by their number and limit [m/s].
-    left: Vec<((usize, f64), f64)>,
-}
-
-impl Lanes<'_> {
+impl Roads<'_> {
     /// The load of the lanes at a station of a chain [m].
-    fn load(&mut self, chain: ChainIndex, station: f64) -> Load {
-        let [bound, all] = self.roads.assignment.flow(chain, station);
+    fn load(&self, chain: ChainIndex, station: f64) -> Load {
+        let [bound, all] = self.assignment.flow(chain, station);
         let (capacity, light) = self.capacity(chain, station);
         let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
         for Position { chain: beside, x: at } in self.beside(chain, station, light.is_some()) {
-            let [_, flow] = self.roads.assignment.flow(beside, at);
+            let [_, flow] = self.assignment.flow(beside, at);
             // A lane that ends soon, or leads elsewhere, has no flow.
             if flow > 0.0 {
                 flows += flow;
@@ -53,19 +42,16 @@ impl Lanes<'_> {
             }
         }
         if light.is_none() {
-            capacities *= self.left(lanes, self.roads.network.chain(chain).limit(station));
+            capacities *= self.queues.left(lanes, self.network.chain(chain).limit(station));
         }
-        let lanelet = self.roads.lanelet(chain, station);
+        let lanelet = self.lanelet(chain, station);
         let of = light.map_or(Bottleneck::Lanes(lanelet), |light| Bottleneck::Light { light, lanelet });
         Load { share: (bound / capacity).max(flows / capacities), of }
     }
 
     /// The load of the lanes at the last place at which some vehicles have to leave one of them; none before a light,
     /// where there is time for this at red.
-    fn load_by_changes(
-        &mut self,
-        Change { from: (chain, [start, last_place]), .. }: &Change,
-    ) -> Option<Load> {
+    fn load_by_changes(&self, Change { from: (chain, [start, last_place]), .. }: &Change) -> Option<Load> {
         /// Distance from the place to where lanes are still side by side, and to where all vehicles have changed [m].
         const SHORTLY: f64 = 0.5;
         let before = last_place - SHORTLY;
@@ -77,7 +63,7 @@ impl Lanes<'_> {
         let lanes: Vec<Position> = std::iter::once(Position::new(*chain, before)).chain(beside).collect();
         let (mut flows, mut capacities, mut number, mut fullest) = (0.0, 0.0, 0, 0.0_f64);
         for Position { chain: lane, x: at } in &lanes {
-            let [bound, flow] = self.roads.assignment.flow(*lane, at + 2.0 * SHORTLY);
+            let [bound, flow] = self.assignment.flow(*lane, at + 2.0 * SHORTLY);
             if flow > 0.0 {
                 let capacity = self.capacity(*lane, *at).0;
                 flows += flow;
@@ -88,53 +74,32 @@ impl Lanes<'_> {
                 }
             }
         }
-        capacities *= self.left(number, self.roads.network.chain(*chain).limit(before));
-        let left = weaving::left(self.roads.assignment, &lanes, flows, last_place - start);
-        let of = Bottleneck::Lanes(self.roads.lanelet(*chain, before));
+        capacities *= self.queues.left(number, self.network.chain(*chain).limit(before));
+        let left = weaving::left(self.assignment, &lanes, flows, last_place - start);
+        let of = Bottleneck::Lanes(self.lanelet(*chain, before));
         (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
     }
 
     /// Whether a lane soon parts from all lanes beside it, beyond a station [m]: vehicles that need it have to be on
     /// it already.
     fn parts_soon(&self, chain: ChainIndex, station: f64) -> bool {
-        let here = self.roads.network.chain(chain);
+        let here = self.network.chain(chain);
         let ends = Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).map(|it| it.end);
         ends.fold(station, f64::max) < station + TAKES_LANE_WITHIN
     }
 
     /// The flow at a station of a chain [veh/s], and the light there.
-    fn capacity(&mut self, chain: ChainIndex, station: f64) -> (f64, Option<i64>) {
-        let network = self.roads.network;
+    fn capacity(&self, chain: ChainIndex, station: f64) -> (f64, Option<i64>) {
+        let network = self.network;
         let limit = network.chain(chain).limit(station);
         let stops = network.junctions.on(chain).stops.iter();
         let mut near = stops.filter(|it| (it.station - station).abs() < BESIDE);
         let light = near.find_map(|it| if let Sign::Light(light) = it.sign { Some(light) } else { None });
         let Some(light) = light else {
-            return (self.stream(limit), None);
+            return (self.queues.stream(limit, 0.0), None);
         };
         let Light { id, program, .. } = &network.junctions.lights[light.at()];
-        (self.through(light.at(), program, limit), Some(*id))
-    }
-
-    /// The capacity of a single lane without a light under `limit` [m/s], if it is alone [veh/s].
-    fn stream(&mut self, limit: f64) -> f64 {
-        once(&mut self.streams, limit, || self.roads.mixture(limit).stream())
-    }
-
-    /// The share of the capacity of so many `lanes` side by side under `limit` [m/s] that lane changes leave.
-    fn left(&mut self, lanes: usize, limit: f64) -> f64 {
-        if lanes < 2 {
-            return 1.0;
-        }
-        let alone = lanes as f64 * self.stream(limit);
-        let Roads { drivers, fleet, .. } = *self.roads;
-        let left =
-            || side_by_side::flow(lanes, limit, drivers, fleet).map_or(1.0, |it| (it / alone).min(1.0));
-        once(&mut self.left, (lanes, limit), left)
-    }
-
-    fn through(&mut self, light: usize, program: &Program, limit: f64) -> f64 {
-        once(&mut self.lights, (light, limit), || self.roads.mixture(limit).through(program))
+        (self.queues.through(program, limit), Some(*id))
     }
 
     /// The lanes to which vehicles may change at a station of a chain [m], or shortly before a light there, each with
@@ -142,7 +107,7 @@ impl Lanes<'_> {
     fn beside(&self, chain: ChainIndex, station: f64, is_at_light: bool) -> Vec<Position> {
         /// Length without lane changes before a light [m].
         const BEFORE_A_LIGHT: f64 = 100.0;
-        let network = self.roads.network;
+        let network = self.network;
         let since = |x: f64| if is_at_light { x - BEFORE_A_LIGHT } else { x };
         let mut found = vec![Position::new(chain, station)];
         let mut number = 0;

@@ -9,26 +9,28 @@ mod conflict;
 mod delay;
 mod lanes;
 mod movement;
+mod queues;
 mod side_by_side;
 mod stream;
 mod town;
 mod weaving;
 
 use std::fmt;
+use std::sync::LazyLock;
 
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Position};
-use laneweave_sim::{Assignment, Demand, Fleet};
+use laneweave_sim::{Assignment, Demand, InnerPlace, Place};
 use laneweave_study::units::SECONDS_PER_HOUR;
 
-use stream::Mixture;
+pub(crate) use queues::Queues;
 
 /// The estimated capacity of a map: the demand at which its first part is full.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
     /// Of all origins together [veh/h].
     pub veh_h: f64,
-    /// The bottleneck.
+    /// What is full at this demand.
     pub bottleneck: Option<Bottleneck>,
 }
 
@@ -51,6 +53,9 @@ pub enum Bottleneck {
     /// The town core: all roads that form loops.
     Town,
 }
+
+/// The estimated capacity of a map, computed when somebody asks for it.
+pub type Estimate = LazyLock<Capacity, Box<dyn FnOnce() -> Capacity + Send>>;
 
 impl fmt::Display for Capacity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -78,21 +83,15 @@ struct Load {
     of: Bottleneck,
 }
 
-/// The inputs: the roads of a map, the routes of the demand on them, and the drivers.
+/// The inputs: the roads of a map, the routes of the demand on them, and the queues of its drivers.
 #[derive(Clone, Copy)]
 struct Roads<'a> {
     network: &'a Network,
     assignment: &'a Assignment,
-    drivers: &'a [(Style, f64)],
-    fleet: &'a Fleet,
+    queues: &'a Queues,
 }
 
-impl<'a> Roads<'a> {
-    /// The vehicles and drivers under a limit [m/s].
-    fn mixture(&self, limit: f64) -> Mixture<'a> {
-        Mixture::new(limit, self.drivers, self.fleet)
-    }
-
+impl Roads<'_> {
     /// The lanelet's id at a station of a chain [m].
     fn lanelet(&self, chain: ChainIndex, station: f64) -> i64 {
         self.network.lanelet_at(Position::new(chain, station)).0.id
@@ -118,12 +117,23 @@ impl Capacity {
         demand: &Demand,
         drivers: &[(Style, f64)],
     ) -> Capacity {
-        let roads = Roads { network, assignment, drivers, fleet: &demand.fleet };
+        let queues = Queues::new(drivers, demand.fleet);
+        Capacity::of(network, assignment, &inner_places(demand), &queues)
+    }
+
+    /// The same of drivers with these `queues` who start at `inner_places`, too.
+    pub(crate) fn of(
+        network: &Network,
+        assignment: &Assignment,
+        inner_places: &[InnerPlace],
+        queues: &Queues,
+    ) -> Capacity {
+        let roads = Roads { network, assignment, queues };
         let movements = movement::movements(&roads);
         let parts = lanes::loads(&roads)
             .into_iter()
             .chain(conflict::loads(&roads, &movements))
-            .chain(town::inner_place_loads(&roads, demand));
+            .chain(town::inner_place_loads(&roads, inner_places));
         // Of parts with equal loads the first counts, however their numbers are rounded.
         let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
         let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
@@ -135,12 +145,11 @@ impl Capacity {
     }
 }
 
-/// The stored value for `key`; computed if there is none.
-fn once<K: PartialEq, T: Copy>(known: &mut Vec<(K, T)>, key: K, compute: impl FnOnce() -> T) -> T {
-    if let Some((_, it)) = known.iter().find(|it| it.0 == key) {
-        return *it;
-    }
-    let new = compute();
-    known.push((key, new));
-    new
+/// The places inside the map from which trips of `demand` start.
+pub(crate) fn inner_places(demand: &Demand) -> Vec<InnerPlace> {
+    let inner_place = |it: &Place| match it {
+        Place::Inside(inner) => Some(*inner),
+        Place::Gate(_) => None,
+    };
+    demand.origins.iter().filter_map(|it| inner_place(&it.place)).collect()
 }

@@ -6,8 +6,7 @@ use laneweave_models::yielding::{MARGIN, time_to_cover};
 use laneweave_network::{ChainIndex, Precedence, Touch, ZoneKind};
 use laneweave_sim::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 
-use super::stream::Mixture;
-use super::{Roads, once};
+use super::Roads;
 
 /// A movement through a junction.
 pub(super) struct Movement {
@@ -40,25 +39,10 @@ impl Movement {
     }
 }
 
-/// Values that are the same for all movements under a limit in bends of the same curvature.
-#[derive(Clone, Copy)]
-struct Pace {
-    /// Headway of a stream, and of vehicles that start from rest [s].
-    headway: f64,
-    start: f64,
-}
-
 /// All movements through zones without lights, those with the largest shares of time first.
 pub(super) fn movements(roads: &Roads) -> Vec<Movement> {
     let mut all = in_order_of_chains(roads);
-    let mut paces: Vec<((f64, f64), Pace)> = Vec::new();
-    for movement in &mut all {
-        let pace = once(&mut paces, limits(roads, movement), || {
-            let mixture = mixture(roads, movement);
-            Pace { headway: 1.0 / mixture.stream(), start: 1.0 / mixture.starts() }
-        });
-        take_time(roads, pace, movement);
-    }
+    all.iter_mut().for_each(|it| take_time(roads, it));
     all.sort_by(|a, b| b.share().total_cmp(&a.share()));
     meet(roads, &mut all);
     all
@@ -112,7 +96,9 @@ const NOTICES_AFTER: f64 = 0.15;
 
 /// Sets the times of `movement`: with priority, vehicles keep their headway; otherwise they start from rest, and keep
 /// others away until their rears are clear.
-fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Movement) {
+fn take_time(roads: &Roads, movement: &mut Movement) {
+    let (limit, curvature) = limits(roads, movement);
+    let headway = 1.0 / roads.queues.stream(limit, curvature);
     let zones = &roads.network.junctions.zones;
     let goes_first = |(zone, side): &(usize, usize)| zones[*zone].precedence == Precedence::Side(*side as u8);
     if movement.zones.iter().all(goes_first) {
@@ -120,17 +106,11 @@ fn take_time(roads: &Roads, Pace { headway, start }: Pace, movement: &mut Moveme
         return;
     }
     let distance = movement.end - movement.start + stands_before(roads, movement);
-    let mixture = mixture(roads, movement);
+    let mixture = roads.queues.mixture(limit, curvature);
     let covers = mixture.mean_of(|length, desired| time_to_cover(distance + length, 0.0, desired));
     movement.time = MARGIN + covers + NOTICES_AFTER;
     movement.gap = mixture.critical_gap().max(movement.time);
-    movement.follow_up = start.max(headway) + NOTICES_AFTER;
-}
-
-/// The vehicles and drivers in a movement.
-fn mixture<'a>(roads: &Roads<'a>, movement: &Movement) -> Mixture<'a> {
-    let (limit, curvature) = limits(roads, movement);
-    roads.mixture(limit).in_bend(curvature)
+    movement.follow_up = (1.0 / mixture.starts()).max(headway) + NOTICES_AFTER;
 }
 
 /// The limit [m/s] at the begin of a movement, and its largest curvature [1/m], rounded so that there are few.

@@ -2,13 +2,19 @@
 //!
 //! Drivers who change lanes stand in two of them for some seconds, and leave gaps that nobody fills: lanes side by
 //! side have less capacity than as many single ones. A simulation gives this capacity: a straight road, with the same
-//! drivers, and a demand above capacity.
+//! drivers, and a demand above capacity. For the default drivers its results are known in advance.
+
+use std::path::Path;
 
 use laneweave_maps::generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
 
+use laneweave_study::units::KMH_PER_MPS;
+
 use super::SECONDS_PER_HOUR;
+use crate::scenario;
+use crate::style::{DEFAULT_MIXTURE, StyleTemplate, find};
 
 /// Travel time along the road at the limit [s].
 const LENGTH_S: f64 = 40.0;
@@ -19,9 +25,48 @@ const COUNTED: f64 = 600.0;
 /// More than the capacity of any lane [veh/h].
 const TOO_MANY: f64 = 3000.0;
 
+/// Numbers of lanes for which the results are known.
+const KNOWN_LANES: [usize; 3] = [2, 3, 4];
+/// For limits [km/h] and these numbers of lanes, the vehicles that leave the road in the counted time, in the default
+/// mixture of styles and classes. A test simulates them, and says what they are if drivers have changed.
+const KNOWN: [(f64, [u64; 3]); 8] = [
+    (30.0, [392, 596, 775]),
+    (50.0, [508, 761, 989]),
+    (60.0, [581, 800, 1059]),
+    (70.0, [605, 936, 1208]),
+    (80.0, [681, 996, 1369]),
+    (100.0, [682, 976, 1383]),
+    (120.0, [737, 997, 1397]),
+    (130.0, [728, 1006, 1432]),
+];
+
 /// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, at a demand
 /// above capacity [veh/s]; `None` if there is no such road.
 pub(super) fn flow(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet) -> Option<f64> {
+    let known = known(lanes, limit).filter(|_| are_default(drivers, fleet));
+    let left = known.map_or_else(|| simulated(lanes, limit, drivers, fleet), Some);
+    left.map(|it| it as f64 / COUNTED)
+}
+
+/// The vehicles that leave the road in the counted time, if this is known for the default drivers.
+fn known(lanes: usize, limit: f64) -> Option<u64> {
+    let (_, left) = KNOWN.iter().find(|it| it.0 / KMH_PER_MPS == limit)?;
+    KNOWN_LANES.iter().position(|it| *it == lanes).map(|it| left[it])
+}
+
+/// Whether these are the default drivers in the default vehicles.
+fn are_default(drivers: &[(Style, f64)], fleet: &Fleet) -> bool {
+    let is_default = |((style, weight), (name, usual)): (&(Style, f64), &(&str, f64))| {
+        let built_in = || find(name, Path::new(""), String::new).and_then(|it| StyleTemplate::parse(&it));
+        weight == usual && style.name == *name && built_in().is_ok_and(|it| it.typical() == style)
+    };
+    *fleet == scenario::Demand::default().fleet()
+        && drivers.len() == DEFAULT_MIXTURE.len()
+        && drivers.iter().zip(&DEFAULT_MIXTURE).all(is_default)
+}
+
+/// The vehicles that leave the road in the counted time.
+fn simulated(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet) -> Option<u64> {
     let road = Motorway {
         lanes,
         length_m: LENGTH_S * limit,
@@ -40,5 +85,23 @@ pub(super) fn flow(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &F
     drive(&mut world, UNTIL_FULL);
     world.reset_counts();
     drive(&mut world, COUNTED);
-    Some(world.counts().left as f64 / COUNTED)
+    Some(world.counts().left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_known_of_the_default_drivers_is_what_a_simulation_gives() {
+        let usual = |(name, weight): (&str, f64)| {
+            let source = find(name, Path::new(""), String::new).unwrap();
+            (StyleTemplate::parse(&source).unwrap().typical().clone(), weight)
+        };
+        let (drivers, fleet) = (DEFAULT_MIXTURE.map(usual), scenario::Demand::default().fleet());
+        assert!(are_default(&drivers, &fleet) && !are_default(&drivers[..1], &fleet));
+        let of_lanes = |limit: f64, lanes| simulated(lanes, limit / KMH_PER_MPS, &drivers, &fleet).unwrap();
+        let simulated = KNOWN.map(|(limit, _)| (limit, KNOWN_LANES.map(|lanes| of_lanes(limit, lanes))));
+        assert_eq!(simulated, KNOWN);
+    }
 }

@@ -1,8 +1,9 @@
 //! The flow of one lane: in a stream, of drivers who start from rest, and through a light.
 
+use std::cell::OnceCell;
+
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_models::{Style, bends};
-use laneweave_network::{Phase, Program};
 use laneweave_sim::{Class, Fleet, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
 
 /// Vehicles of one class with drivers of one style.
@@ -13,6 +14,15 @@ struct Kind<'a> {
     class: Class,
     /// Desired speed [m/s].
     desired: f64,
+    /// Gap in a standing queue [m]; computed when a queue needs it.
+    standing_gap: OnceCell<f64>,
+}
+
+impl Kind<'_> {
+    fn standing_gap(&self) -> f64 {
+        let standing = Pace::new(0.0, self.desired);
+        *self.standing_gap.get_or_init(|| self.style.follow.equilibrium_gap(standing))
+    }
 }
 
 /// The vehicles on a lane under one limit, by kind.
@@ -29,6 +39,7 @@ impl<'a> Mixture<'a> {
             style,
             class,
             desired: class.desired_speed(style, limit),
+            standing_gap: OnceCell::new(),
         });
         Mixture(all.filter(|it| it.share > 0.0).collect())
     }
@@ -94,17 +105,8 @@ impl<'a> Mixture<'a> {
         1.0 / self.mean(time)
     }
 
-    /// Flow through a light with a queue before it [veh/s].
-    pub(super) fn through(&self, program: &Program) -> f64 {
-        if program.phases.is_empty() {
-            return self.stream();
-        }
-        let pass = |it: &Phase| self.pass_at_green(it.to - it.from);
-        program.phases.iter().map(pass).sum::<f64>() / program.cycle
-    }
-
     /// Number of vehicles of a standing queue that pass in one green [s] and the yellow after it, mean over queues.
-    fn pass_at_green(&self, green: f64) -> f64 {
+    pub(super) fn pass_at_green(&self, green: f64) -> f64 {
         const QUEUES: u32 = 16;
         let queues = (0..QUEUES).map(|it| self.queue_passes(f64::from(it) / f64::from(QUEUES), green));
         queues.sum::<f64>() / f64::from(QUEUES)
@@ -157,8 +159,7 @@ impl<'a> Queue<'a> {
     /// Position of the next vehicle's front [m].
     fn next(&self) -> f64 {
         self.vehicles.last().map_or(-STANDS_BEFORE_A_LINE, |Queued { kind, x, .. }| {
-            let standing = Pace::new(0.0, kind.desired);
-            x - kind.class.body().length - kind.style.follow.equilibrium_gap(standing)
+            x - kind.class.body().length - kind.standing_gap()
         })
     }
 

@@ -1,12 +1,12 @@
 //! The loads of a town core, and of places inside the map.
 
 use laneweave_network::{ChainIndex, Light, Sign};
-use laneweave_sim::{Demand, InnerPlace, PerimeterControl, Place};
+use laneweave_sim::{InnerPlace, PerimeterControl};
 
 use super::conflict::{Approach, approaches};
 use super::delay;
 use super::movement::Movement;
-use super::{Bottleneck, Load, Roads, once};
+use super::{Bottleneck, Load, Roads};
 
 /// The load of the town core, all roads that form loops, if they are full before all flows are `most` times as large.
 /// Each vehicle on them takes up length as long as it is there (Little's law), at its desired speed and with the
@@ -49,7 +49,6 @@ struct Lit<'a> {
 impl<'a> Town<'a> {
     fn new(roads: &Roads<'a>, perimeter: &PerimeterControl, movements: &'a [Movement]) -> Town<'a> {
         let (mut driving, mut lit) = (0.0, Vec::new());
-        let mut known: Vec<((usize, f64), f64)> = Vec::new();
         for chain in roads.chains().filter(|it| perimeter.is_core(*it)) {
             driving += driving_on(roads, chain);
             for stop in &roads.network.junctions.on(chain).stops {
@@ -57,14 +56,13 @@ impl<'a> Town<'a> {
                 let [_, flow] = roads.assignment.flow(chain, stop.station);
                 let limit = roads.network.chain(chain).limit(stop.station);
                 let it = &roads.network.junctions.lights[light.at()];
-                let pass = || roads.mixture(limit).through(&it.program);
-                let capacity = once(&mut known, (light.at(), limit), pass);
+                let capacity = roads.queues.through(&it.program, limit);
                 lit.push(Lit { light: it, flow, capacity });
             }
         }
         let mut approaches = approaches(roads.network, movements);
         approaches.retain(|it| perimeter.is_core(it.chain));
-        let room = roads.mixture(1.0).mean_of(|length, _| PerimeterControl::taken_by(length));
+        let room = roads.queues.mixture(1.0, 0.0).mean_of(|length, _| PerimeterControl::taken_by(length));
         Town { movements, driving, room, lit, approaches }
     }
 
@@ -91,22 +89,17 @@ fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     let here = roads.network.chain(chain);
     let parts = roads.assignment.on(chain).iter();
     let metres: f64 = parts.map(|it| it.flow * (it.to.min(here.length) - it.from)).sum();
-    let mixture = roads.mixture(here.limit(0.0));
+    let mixture = roads.queues.mixture(here.limit(0.0), 0.0);
     mixture.mean_of(|length, desired| PerimeterControl::taken_by(length) * metres / desired)
 }
 
 /// The loads of places inside the map: a vehicle that starts from one makes space for the next.
-pub(super) fn inner_place_loads(roads: &Roads, demand: &Demand) -> Vec<Load> {
-    let mut known: Vec<(f64, f64)> = Vec::new();
-    let inner_places = demand.origins.iter().filter_map(|it| match &it.place {
-        Place::Inside(inner) => Some(inner),
-        Place::Gate(_) => None,
-    });
+pub(super) fn inner_place_loads(roads: &Roads, inner_places: &[InnerPlace]) -> Vec<Load> {
     let load = |inner: &InnerPlace| {
         let limit = roads.network.chain(inner.chain).limit(inner.station);
-        let flow = once(&mut known, limit, || roads.mixture(limit).starts());
+        let flow = roads.queues.mixture(limit, 0.0).starts();
         let starts = roads.assignment.on(inner.chain).iter().filter(|it| it.from == inner.station);
         Load { share: starts.map(|it| it.flow).sum::<f64>() / flow, of: Bottleneck::TripEnd(inner.id) }
     };
-    inner_places.map(load).collect()
+    inner_places.iter().map(load).collect()
 }

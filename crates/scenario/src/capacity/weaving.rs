@@ -30,7 +30,8 @@ pub(super) fn left(assignment: &Assignment, lanes: &[Position], flow: f64, lengt
         let within = end.min(at) - start.max(at - length);
         Some(it.flow * (within / (end - start).max(LEAST)).clamp(0.0, 1.0))
     };
-    let changing: f64 = assignment.changes.iter().filter_map(changing).sum();
+    let here = assignment.changes_from(lanes.iter().map(|it| it.chain));
+    let changing: f64 = here.filter_map(changing).sum();
     if changing > 0.0 { left_by(changing / flow, length) } else { 1.0 }
 }
 

@@ -4,6 +4,9 @@
 //! What a driver does up to a time t depends only on what was recorded up to t: its destination is drawn from the
 //! destinations of the vehicles that had gone before it became a driver, its style from the scenario, and its desired
 //! speed from its speed at that moment.
+//!
+//! A [`Player`] puts recorded vehicles on the road, moves them and takes them off, between the steps. It has no state
+//! but the ids of its vehicles, so checkpoints, explanations and branches take a replay like any run.
 
 mod desire;
 mod part;
@@ -33,7 +36,7 @@ pub struct Recorded {
     /// Time after its first frame at which the simulation begins [s]. What was recorded before shows only where
     /// vehicles go.
     pub from_s: f64,
-    /// Pairs of lanelets, from the first of which drivers may change to the second, whatever the map says.
+    /// Lane changes (from, to) that the recording shows, and that drivers may make against the map.
     pub permitted: BTreeSet<[LaneletIndex; 2]>,
 }
 

@@ -38,7 +38,7 @@ impl Prepared {
             Basis::Given => None,
             Basis::Estimated => {
                 let share = 100.0 * USUAL_SHARE;
-                Some(format!("demand: {demand:.0} veh/h, {share:.0} % of the {}", self.capacity))
+                Some(format!("demand: {demand:.0} veh/h, {share:.0} % of the {}", *self.capacity))
             }
             Basis::Usual => Some(format!("demand: {demand:.0} veh/h; this map has no estimated capacity")),
         }
@@ -46,7 +46,7 @@ impl Prepared {
 
     /// A warning for the screen if the demand is above the estimated capacity, in a line.
     pub fn demand_warning(&self) -> Option<String> {
-        let Prepared { demand_veh_h: demand, capacity, .. } = self;
+        let (demand, capacity) = (&self.demand_veh_h, &*self.capacity);
         (capacity.bottleneck.is_some() && *demand > capacity.veh_h).then(|| {
             format!("demand: {demand:.0} veh/h is above the {capacity}: queues grow as long as this lasts")
         })

@@ -35,8 +35,7 @@ pub(super) fn demand(
     let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
     let total = wanted.vehicles_per_hour.or(total).unwrap_or_else(usual);
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
-    let fleet = Fleet { trucks: wanted.trucks, buses: wanted.buses, motorcycles: wanted.motorcycles };
-    let mut demand = Demand::over(places, total, fleet, population);
+    let mut demand = Demand::over(places, total, wanted.fleet(), population);
     let weights = weights(scenario, origin, &demand)?;
     demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
     set_turns(scenario, origin, network, &mut demand)?;
@@ -50,6 +49,13 @@ pub(super) fn demand(
     demand.headways = wanted.headways.into();
     headways::check(&demand, origin)?;
     Ok(demand)
+}
+
+impl super::Demand {
+    /// The classes of its vehicles.
+    pub(crate) fn fleet(&self) -> Fleet {
+        Fleet { trucks: self.trucks, buses: self.buses, motorcycles: self.motorcycles }
+    }
 }
 
 /// Weight of each of the destinations.

@@ -16,7 +16,7 @@ use super::mixture::mixture;
 use super::signals::plans;
 use super::turns::check_arrivals;
 use super::{Origin, Scenario, SumoFile};
-use crate::capacity::Capacity;
+use crate::capacity::{Capacity, Estimate, Queues, inner_places};
 use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
 use crate::replay::{Player, Recorded};
@@ -61,7 +61,7 @@ pub struct Prepared {
     /// The basis of the demand.
     pub basis: Basis,
     /// The estimated capacity of the map.
-    pub capacity: Capacity,
+    pub capacity: Estimate,
     /// Names and weights of the styles.
     pub styles: Vec<(String, f64)>,
     /// The styles from which the drivers are drawn, with their weights.
@@ -174,16 +174,18 @@ fn prepare_with(
     let typical: Vec<(Style, f64)> =
         mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
-    let capacity =
-        |world: &World| Capacity::new(world.network(), &world.assignment(measured), world.demand(), &typical);
-    let (world, basis) = with_demand(scenario, build, capacity)?;
+    let queues = Queues::new(&typical, scenario.demand.fleet());
+    let (world, basis) = with_demand(scenario, build, |world| {
+        let assignment = world.assignment(measured);
+        Capacity::of(world.network(), &assignment, &inner_places(world.demand()), &queues)
+    })?;
     let mean = |rate: &Rate| rate.mean(measured[0], measured[1]);
     let origins: Vec<(Place, f64)> =
         world.demand().origins.iter().map(|it| (it.place.clone(), mean(&it.rate))).collect();
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);
     let world = equipped(world, warmup_steps, scenario, origin)?;
-    let capacity = capacity(&world);
+    let capacity = estimate(&world, measured, queues);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let player = playing.player(scenario, origin, &world)?;
@@ -207,6 +209,14 @@ fn prepare_with(
         script,
         world,
     })
+}
+
+/// The estimated capacity of the map of `world` for its demand between two times [s].
+fn estimate(world: &World, measured: [f64; 2], queues: Queues) -> Estimate {
+    // The world may learn of other routes before somebody asks.
+    let assignment = world.assignment(measured);
+    let (network, inner_places) = (world.shared_network(), inner_places(world.demand()));
+    Estimate::new(Box::new(move || Capacity::of(&network, &assignment, &inner_places, &queues)))
 }
 
 /// The sets of driver parameters of a world of `scenario`: those of its population, and further ones beside a

@@ -1,4 +1,8 @@
 //! The script of a run: the commands that its scenario gives, and the external vehicles that it puts on the road.
+//!
+//! A script stands beside the world, has no clock of its own, and gives the commands that are due before each step.
+//! Every loop over a scenario steps through it. The commands that were carried out make the table `commands`, whose
+//! rows are written and read in one place (`row.rs`); a run is repeated from its own table.
 
 mod refused;
 mod row;

@@ -42,6 +42,13 @@ pub struct Parameter {
     number: u32,
 }
 
+impl Parameter {
+    /// Its key in a style file.
+    fn key(&self) -> String {
+        self.path.join(".")
+    }
+}
+
 impl StyleTemplate {
     /// Reads a style file.
     ///
@@ -169,15 +176,28 @@ impl StyleTemplate {
         Ok(StyleTemplate { parameters, draws: self.draws.clone(), ..changed })
     }
 
+    /// The typical driver, but with `value` for its distributed numbers; `None` if one of them is in no list.
+    fn typical_with(&self, value: impl Fn(&Parameter) -> f64) -> Option<Style> {
+        let mut style = self.typical.clone();
+        for it in &self.parameters {
+            *models::Parameter::of_key(&it.key())?.place(&mut style)? = value(it);
+        }
+        Some(style)
+    }
+
     /// Driver `number` of the style, which is number `style` of the run.
     ///
     /// # Errors
     /// Only if a random value is invalid at its key; reading the file excludes this.
     pub fn draw(&self, random: &Random, style: u32, number: u32) -> Result<Style, Fault> {
-        let drawn = fill(&self.table, &self.parameters, |it| {
+        let value = |it: &Parameter| {
             let draw = style * PARAMETERS_PER_STYLE + it.number;
             it.distribution.value(random.uniform(number, Purpose::Parameter, draw))
-        });
+        };
+        if let Some(drawn) = self.typical_with(value) {
+            return Ok(drawn);
+        }
+        let drawn = fill(&self.table, &self.parameters, value);
         drawn.map_err(|error| {
             Fault::new(&self.typical.name, error.message(), "check the distributions of the style")
         })

@@ -1,4 +1,8 @@
 //! Questions about a world. They change nothing.
+//!
+//! * `account.rs` what a driver makes of its lanes and is about to do, told by the decision itself
+//! * `standing.rs` why a vehicle stands
+//! * `queues.rs` who waits to enter, and why
 
 pub(crate) mod account;
 pub(crate) mod queues;

@@ -17,6 +17,8 @@ pub struct Assignment {
     parts: Vec<Vec<Part>>,
     /// The lane changes that vehicles have to make for their routes.
     pub changes: Vec<Change>,
+    /// For each chain the numbers of the changes from it, in order.
+    changes_from: Vec<Vec<usize>>,
     /// Flow from all origins together [veh/s].
     pub total: f64,
 }
@@ -52,8 +54,13 @@ impl Assignment {
         let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
         let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
         let rate = |it: &Origin| if comes_nobody { it.place.chains().len() as f64 } else { mean(it) };
-        let parts = vec![Vec::new(); network.chains.len()];
-        let mut assignment = Assignment { parts, changes: Vec::new(), total: 0.0 };
+        let chains = network.chains.len();
+        let mut assignment = Assignment {
+            parts: vec![Vec::new(); chains],
+            changes: Vec::new(),
+            changes_from: vec![Vec::new(); chains],
+            total: 0.0,
+        };
         let shares: Vec<Vec<f64>> = demand.origins.iter().map(|it| shares(network, navigator, it)).collect();
         for destination in 0..demand.destinations.len() {
             let starts =
@@ -71,6 +78,13 @@ impl Assignment {
     /// The parts of a chain on which vehicles drive.
     pub fn on(&self, chain: ChainIndex) -> &[Part] {
         &self.parts[chain.at()]
+    }
+
+    /// The lane changes that vehicles have to make from any of these chains, in the order of all.
+    pub fn changes_from(&self, chains: impl Iterator<Item = ChainIndex>) -> impl Iterator<Item = &Change> {
+        let mut numbers: Vec<usize> = chains.flat_map(|it| &self.changes_from[it.at()]).copied().collect();
+        numbers.sort_unstable();
+        numbers.into_iter().map(|it| &self.changes[it])
     }
 
     /// Flow over a station of a chain [m]: of the vehicles that can use no other lane, and of all [veh/s].
@@ -233,9 +247,14 @@ impl<'a> Spread<'a> {
 
     fn note_change(&mut self, chain: ChainIndex, stretch: &Beside, on: [f64; 2], flow: f64) {
         let (from, to) = ((chain, on), (stretch.chain, on.map(|it| stretch.across(it))));
-        match self.assignment.changes.iter_mut().find(|it| (it.from, it.to) == (from, to)) {
-            Some(change) => change.flow += flow,
-            None => self.assignment.changes.push(Change { from, to, flow }),
+        let Assignment { changes, changes_from, .. } = &mut *self.assignment;
+        let known = &mut changes_from[chain.at()];
+        match known.iter().find(|it| (changes[**it].from, changes[**it].to) == (from, to)) {
+            Some(number) => changes[*number].flow += flow,
+            None => {
+                known.push(changes.len());
+                changes.push(Change { from, to, flow });
+            }
         }
     }
 }

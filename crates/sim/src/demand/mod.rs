@@ -1,4 +1,9 @@
 //! Demand: how many vehicles arrive, of which kind, from where and to where, and at which headways.
+//!
+//! * `arrivals.rs` the part `Arrivals`; `source.rs` origins and their queues; `rate.rs`, `headways.rs` and `places.rs`
+//!   when and where vehicles arrive
+//! * `perimeter_control.rs` when trips may begin through a full town
+//! * `assignment.rs` where a demand leads; `capacity` of `laneweave_scenario` estimates capacity from it
 
 pub(crate) mod arrivals;
 pub(crate) mod assignment;

@@ -29,9 +29,17 @@ impl Places {
 
     /// The same places without the origins from which no destination can be reached.
     pub fn reachable(mut self, network: &Network) -> Places {
-        let navigator = Navigator::towards(network, &self.destinations);
-        let count = self.destinations.len() as u16;
-        self.origins.retain(|place| (0..count).any(|it| navigator.leads(network, place, it)));
+        let mut cut_off: Vec<usize> = (0..self.origins.len()).collect();
+        for destination in self.destinations.chunks(1) {
+            // Most places are connected: one destination is enough.
+            if cut_off.is_empty() {
+                break;
+            }
+            let navigator = Navigator::towards(network, destination);
+            cut_off.retain(|it| !navigator.leads(network, &self.origins[*it], 0));
+        }
+        let mut numbers = 0..self.origins.len();
+        self.origins.retain(|_| numbers.next().is_some_and(|it| cut_off.binary_search(&it).is_err()));
         self
     }
 

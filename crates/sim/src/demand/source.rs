@@ -274,7 +274,6 @@ impl Source {
         keys.min_by(|a, b| order(&a.1, &b.1)).map_or(0, |(index, _)| index)
     }
 
-    /// Its queues.
     pub(crate) fn queues(&mut self) -> &mut [Queue] {
         &mut self.lanes
     }

@@ -1,4 +1,12 @@
 //! Drivers: they perceive, decide and accelerate, and write the results into a plan.
+//!
+//! * `perceive.rs` turns an instant into the plain data of the models; `attention.rs` whether a driver is concentrated
+//! * `turn.rs`, `consider.rs`, `choice.rs` and `decide.rs` lane changes; `gap.rs` the gap beside, and why it is not
+//!   accepted; `window.rs` and `last_place.rs` short stretches on which lanes may be changed
+//! * `drive.rs`, `accelerate.rs`, `two_lanes.rs`, `merge.rs`, `stopping.rs` and `lane_end.rs` the next motion
+//! * `request_reservation.rs` junctions; `stuck.rs` who stands for nothing
+//! * `beliefs.rs` and `leave.rs` how drivers take guidance
+//! * `obey.rs` external vehicles; `plan.rs` what a step writes down; `intention.rs` and `wish.rs` what is read of it
 
 pub(crate) mod accelerate;
 pub(crate) mod attention;

@@ -158,7 +158,7 @@ pub(crate) struct Controlled {
     pub(crate) index: u32,
     /// What the user says.
     pub(crate) told: Told,
-    /// It has stood for some time although its driver would go: it lets others go.
+    /// Its user has held it for some time although its driver would go: it yields its turn.
     pub(crate) gives_way: bool,
 }
 
@@ -206,7 +206,6 @@ pub(crate) struct ReservationRequest {
     pub(crate) since: u32,
     /// The vehicle.
     pub(crate) id: VehicleId,
-    /// Its chain.
     pub(crate) chain: ChainIndex,
     /// Its position on the snapshot [m].
     pub(crate) x: f64,
@@ -261,7 +260,6 @@ pub(crate) struct Request {
     pub(crate) urgency: f32,
     /// The vehicle.
     pub(crate) id: VehicleId,
-    /// Its chain.
     pub(crate) chain: ChainIndex,
     /// Its position on the snapshot [m].
     pub(crate) x: f64,
@@ -285,7 +283,6 @@ pub(crate) enum Ask {
 /// A desire to change.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Want {
-    /// The side.
     pub(crate) side: Side,
     /// The kind of change.
     pub(crate) kind: LaneChangeKind,

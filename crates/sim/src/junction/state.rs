@@ -21,7 +21,6 @@ impl JunctionState {
         JunctionState { reservations: Reservations::new(network), signals: Signals::new(network, clock) }
     }
 
-    /// The reservations.
     #[inline]
     pub(crate) fn reservations(&self) -> &Reservations {
         &self.reservations
@@ -32,7 +31,6 @@ impl JunctionState {
         &mut self.reservations
     }
 
-    /// The signals.
     #[inline]
     pub(crate) fn signals(&self) -> &Signals {
         &self.signals

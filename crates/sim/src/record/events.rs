@@ -141,7 +141,7 @@ pub struct LaneChange {
     pub vehicle: VehicleId,
     /// Index of its driver in the table of driver parameters.
     pub parameters: u32,
-    /// Its class.
+    /// The class of the vehicle that changes lanes.
     pub class: crate::state::vehicle::Class,
     /// Time when the lateral motion began [s].
     pub started: f64,

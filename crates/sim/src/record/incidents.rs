@@ -9,7 +9,7 @@ use crate::state::vehicle::Class;
 /// Two vehicles whose rectangles began to intersect by more than 5 cm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Incident {
-    /// Its kind.
+    /// Whether it is a collision or an overlap.
     pub kind: IncidentKind,
     /// Time when it was detected [s].
     pub time: f64,

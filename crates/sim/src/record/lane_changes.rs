@@ -4,7 +4,6 @@ use crate::record::events::LaneChange;
 use crate::state::push_tight::push_tight;
 use serde::{Deserialize, Serialize};
 
-/// The records.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Records {
     kept: Vec<LaneChange>,

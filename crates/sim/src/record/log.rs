@@ -64,7 +64,6 @@ impl Log {
         &self.events
     }
 
-    /// The counts.
     pub(crate) fn counts(&self) -> &Counts {
         &self.counts
     }
@@ -74,7 +73,6 @@ impl Log {
         self.counts = Counts { entered: on_road as u64, ..Counts::default() };
     }
 
-    /// Resets the lanelet aggregates.
     pub(crate) fn reset_lanelet_aggregates(&mut self, network: &Network) {
         self.aggregates = self.aggregates.as_ref().map(|_| LaneletAggregates::new(network));
     }

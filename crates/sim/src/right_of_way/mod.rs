@@ -11,6 +11,10 @@
 //! network, in `junction/precedence.rs` of `laneweave_network`): by lights and signs, by the lag to vehicles with
 //! priority (`laneweave_models::yielding`), then by waiting time. No driver has to wait for a driver who could not go
 //! yet.
+//!
+//! * `survey.rs` what lies ahead; `applicant.rs` who asks; `may_pass.rs` whether it may pass
+//! * `oncoming.rs`, `mergers.rs`, `turns.rs` and `storage_space.rs` the conditions, one by one
+//! * `approach.rs` what a driver reacts to while it drives on
 
 pub(crate) mod applicant;
 pub(crate) mod approach;

@@ -4,6 +4,8 @@
 //! and the interval, from vehicle-metres and vehicle-seconds sampled once a second. Then the routes to all destinations
 //! in use are planned again. A limit per step bounds the work of a step.
 
+use std::collections::BTreeMap;
+
 use laneweave_models::change::link_time;
 use laneweave_models::follow::{FollowingModel, Idm};
 use laneweave_network::{ChainIndex, Network};
@@ -48,10 +50,6 @@ struct Meter {
 }
 
 impl Meter {
-    fn of(link: &Link) -> Meter {
-        Meter { capacity: capacity(link.limit), seconds: 0.0, metres: 0.0 }
-    }
-
     /// Time [s] on `link` from the counts of `interval` [s]; resets the counts.
     fn read(&mut self, link: &Link, interval: f64) -> f64 {
         let Meter { capacity, seconds, metres } = *self;
@@ -67,7 +65,13 @@ impl Meter {
 impl Guidance {
     /// Guidance over `links` with a measurement every `period` steps.
     pub(crate) fn new(links: &Links, period: u32) -> Guidance {
-        let meters = links.all().iter().map(Meter::of).collect();
+        // Many links have one limit.
+        let mut capacities = BTreeMap::new();
+        let mut meter = |link: &Link| {
+            let capacity = *capacities.entry(link.limit.to_bits()).or_insert_with(|| capacity(link.limit));
+            Meter { capacity, seconds: 0.0, metres: 0.0 }
+        };
+        let meters = links.all().iter().map(&mut meter).collect();
         Guidance { period, meters, due: Vec::new(), in_use: Vec::new(), credit: 0 }
     }
 

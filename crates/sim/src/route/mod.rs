@@ -1,4 +1,13 @@
 //! Which lanes lead where, and what a route costs.
+//!
+//! * `roads.rs` the part `Roads`; `place.rs` gates and trip ends inside the map
+//! * `ways.rs` plans for a destination and every chain: the lane changes that are left, the last place for the next
+//!   one, the next chain and the best other route; `navigate.rs` keeps these tables; `onward.rs` is what drivers look
+//!   up in them at every step; `walk.rs` follows a route chain by chain
+//! * `disutility.rs` turns and lights on a route; `fitting_speed.rs` the desired speed before and in bends and lower
+//!   limits
+//! * `links.rs`, `guidance.rs` and `renew_routes.rs` measured travel times, and the routes planned with them
+//! * `class_restrictions.rs` which lanes long vehicles avoid; `closures.rs` which lanelets users closed
 
 pub(crate) mod class_restrictions;
 pub(crate) mod closures;

@@ -161,7 +161,6 @@ impl Navigator {
         destination.is_none_or(|it| usize::from(it) < self.usual())
     }
 
-    /// The links.
     #[inline]
     pub(crate) fn links(&self) -> &Links {
         &self.links

@@ -45,7 +45,6 @@ impl Roads {
         Roads { network, navigator, driver_parameters, random, guidance: None, ground: OnceLock::new() }
     }
 
-    /// The network.
     #[inline]
     pub(crate) fn network(&self) -> &Network {
         &self.network

@@ -7,7 +7,6 @@ use crate::route::onward::Onward;
 /// A chain on a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Leg {
-    /// The chain.
     pub(crate) chain: ChainIndex,
     /// Distance to its start [m]; negative for the first chain of the walk.
     pub(crate) start: f64,

@@ -99,7 +99,7 @@ pub struct Commanded {
     pub command: Command,
 }
 
-/// What a command concerns. One thing gets one command of a kind in a step. Its text is its kind and its id.
+/// What a command concerns. A target gets at most one command of a kind in a step. It displays as its kind and id.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
     /// A lanelet, by its id.

@@ -31,7 +31,6 @@ impl DriverParameters {
         &self.styles
     }
 
-    /// The sets.
     #[inline]
     pub(crate) fn sets(&self) -> &[Style] {
         &self.sets

@@ -1,4 +1,11 @@
 //! The state as plain data: vehicles, lanes, time and random numbers.
+//!
+//! * `traffic.rs` all lanes and the clock; `lane.rs` the entries of a lane; `lane_change.rs` and `phase.rs` what only
+//!   lane changes need; `previous_lanes.rs` the chains that a vehicle's rear may still be on; `busy_lanes.rs` which
+//!   lanes have vehicles
+//! * `vehicle.rs` classes and bodies; `goal.rs` where a driver goes; `driver_parameters.rs` the sets of driver
+//!   parameters, and what users changed in them; `random.rs` random numbers
+//! * `command.rs`, `commands.rs`, `control.rs` and `externals.rs` what users do
 
 pub(crate) mod busy_lanes;
 pub(crate) mod clock;

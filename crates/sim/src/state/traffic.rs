@@ -43,7 +43,6 @@ impl Traffic {
         }
     }
 
-    /// The clock.
     #[inline]
     pub(crate) fn clock(&self) -> Clock {
         self.clock

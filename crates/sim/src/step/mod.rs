@@ -1,4 +1,16 @@
 //! The step: the only part that changes a world.
+//!
+//! `world.rs` has the parts of a world and the list of verbs; each verb is a file of its name. Beside them:
+//!
+//! * `put_vehicle.rs` and `take_off.rs` vehicles come and go; `end_change.rs` ends a lane change; `wait_cycles.rs`
+//!   drivers who wait for each other; `reserve_on_entering.rs` entrances within conflict areas
+//! * `command.rs` takes commands of users, `change_roads.rs` and `carry_out.rs` carry them out, `settings.rs` tells
+//!   what is set now; `insert.rs` and `names.rs` help
+//! * `externals.rs`, `move_externals.rs`, `relocate.rs`, `obstacle.rs` and `show_rears.rs` the vehicles that users
+//!   drive; `recorded.rs` those that a recording moves
+//! * `pool.rs` and `work.rs` the threads and their memory
+//! * `checkpoint.rs` and `seal.rs` the state of a world as bytes
+//! * `queries.rs`, `columns.rs`, `vehicle.rs` and `index.rs` what a world tells of itself
 
 pub(crate) mod advance;
 pub(crate) mod carry_out;

@@ -26,7 +26,7 @@ pub struct Scene<'a> {
     pub navigator: &'a Navigator,
     /// The vehicles, by chain.
     pub lanes: &'a [Lane],
-    /// The driver parameters.
+    /// The table of driver parameters, to which vehicles refer.
     pub driver_parameters: &'a [Style],
     /// The reservations at junctions.
     pub reservations: &'a Reservations,

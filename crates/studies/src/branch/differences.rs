@@ -37,10 +37,10 @@ pub struct Vehicle {
     /// Lane changes since the branch time, in the base and in the branch.
     pub lane_changes: [u32; 2],
     /// Time at which it completed its trip, in the base and in the branch [s].
-    pub left_s: [Option<f64>; 2],
+    pub completed_s: [Option<f64>; 2],
 }
 
-/// The differences.
+/// What differs between the twins, vehicle by vehicle and second by second.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
     /// The branch time [s].
@@ -52,7 +52,7 @@ pub struct Differences {
     /// Vehicles that completed their trips in both, but at different times.
     changes: [u64; 2],
     by_vehicle: BTreeMap<VehicleId, [u32; 2]>,
-    left: BTreeMap<VehicleId, [Option<f64>; 2]>,
+    completed: BTreeMap<VehicleId, [Option<f64>; 2]>,
 }
 
 /// The state of a vehicle that is compared: its name, lane, place, speed and state.
@@ -67,7 +67,7 @@ impl Differences {
             vehicles: BTreeMap::new(),
             changes: [0; 2],
             by_vehicle: BTreeMap::new(),
-            left: BTreeMap::new(),
+            completed: BTreeMap::new(),
         }
     }
 
@@ -81,7 +81,8 @@ impl Differences {
                         self.by_vehicle.entry(change.vehicle).or_default()[which] += 1;
                     }
                     Event::Completed { occurrence, .. } => {
-                        self.left.entry(occurrence.vehicle).or_default()[which] = Some(simulation.time_s());
+                        self.completed.entry(occurrence.vehicle).or_default()[which] =
+                            Some(simulation.time_s());
                     }
                     _ => {}
                 }
@@ -101,7 +102,7 @@ impl Differences {
         }
         for (id, vehicle) in &mut self.vehicles {
             vehicle.lane_changes = self.by_vehicle.get(id).copied().unwrap_or_default();
-            vehicle.left_s = self.left.get(id).copied().unwrap_or_default();
+            vehicle.completed_s = self.completed.get(id).copied().unwrap_or_default();
         }
     }
 
@@ -174,7 +175,8 @@ impl Differences {
             KMH_PER_MPS * all / self.instants.len() as f64
         });
         facts.push(("mean speed", both(speeds, " km/h", 1)));
-        let left = [0, 1].map(|which| self.left.values().filter(|it| it[which].is_some()).count() as f64);
+        let left =
+            [0, 1].map(|which| self.completed.values().filter(|it| it[which].is_some()).count() as f64);
         facts.push(("completed trips", both(left, "", 0)));
         let later: Vec<f64> = self.later().collect();
         if !later.is_empty() {
@@ -189,7 +191,7 @@ impl Differences {
 
     /// The delays in the branch relative to the base, of the vehicles that completed their trips in both [s].
     pub(super) fn later(&self) -> impl Iterator<Item = f64> {
-        self.left.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?))
+        self.completed.values().filter_map(|[base, branch]| Some(branch.as_ref()? - base.as_ref()?))
     }
 }
 
@@ -218,5 +220,5 @@ fn found(simulation: &Simulation, id: VehicleId, since_s: f64) -> Vehicle {
     let vehicle = simulation.view(id);
     let style = vehicle.map_or(String::new(), |it| it.style().name.clone());
     let class = vehicle.map_or("", |it| it.driver.class.body().name);
-    Vehicle { style, class, since_s, lane_changes: [0; 2], left_s: [None; 2] }
+    Vehicle { style, class, since_s, lane_changes: [0; 2], completed_s: [None; 2] }
 }

@@ -131,7 +131,8 @@ fn vehicles(differences: &Differences) -> Table {
     let mut table = Table::new(caption, &columns);
     for (id, it) in all.into_iter().take(NAMED) {
         let [base, branch] = it.lane_changes.map(|it| it.to_string());
-        let [base_left, branch_left] = it.left_s.map(|it| it.map_or("–".into(), |it| format!("{it:.1}")));
+        let [base_completed, branch_completed] =
+            it.completed_s.map(|it| it.map_or("–".into(), |it| format!("{it:.1}")));
         let since = format!("{:.1}", it.since_s);
         table.row([
             id.to_string(),
@@ -140,8 +141,8 @@ fn vehicles(differences: &Differences) -> Table {
             since,
             base,
             branch,
-            base_left,
-            branch_left,
+            base_completed,
+            branch_completed,
         ]);
     }
     table

@@ -43,8 +43,7 @@ pub struct Report {
     pub entrances: Vec<Opening>,
     /// Exits; none on a closed map.
     pub exits: Vec<Opening>,
-    /// On a closed map, the lanelets along which trips start; in files the field keeps its old name.
-    #[serde(rename = "kerbs")]
+    /// On a closed map, the lanelets along which trips start.
     pub inner_places: usize,
     /// Traffic lights.
     pub lights: Vec<Lit>,

@@ -34,9 +34,9 @@ pub struct Outcome {
     /// Vehicles that became stuck.
     pub stuck: f64,
     /// Vehicles that completed their trips.
-    pub left: f64,
+    pub completed: f64,
     /// Vehicles that wait to enter at the end.
-    pub waiting: f64,
+    pub waiting_to_enter: f64,
 }
 
 /// A measure of every run.
@@ -80,8 +80,8 @@ pub const MEASURES: [Measure; 13] = [
     measure("missed_turns", "missed turns [% of vehicles]", 2, |it| Some(100.0 * it.missed_turns)),
     measure("emergencies", "emergency brakings [1/100 veh-km]", 2, |it| Some(100.0 * it.emergencies)),
     measure("stuck", "stuck vehicles", 1, |it| Some(it.stuck)),
-    measure("left", "completed trips", 0, |it| Some(it.left)),
-    measure("waiting", "vehicles waiting to enter at the end", 0, |it| Some(it.waiting)),
+    measure("completed", "completed trips", 0, |it| Some(it.completed)),
+    measure("waiting_to_enter", "vehicles waiting to enter at the end", 0, |it| Some(it.waiting_to_enter)),
 ];
 
 impl Outcome {
@@ -131,8 +131,8 @@ impl Outcome {
             missed_turns: per(counters.missed_turns, counts.entered as f64),
             emergencies: per(counters.emergency_brakings, veh_km),
             stuck: counters.stuck as f64,
-            left: counts.left as f64,
-            waiting: simulation.waiting_to_enter() as f64,
+            completed: counts.left as f64,
+            waiting_to_enter: simulation.waiting_to_enter() as f64,
         };
         (outcome, boxes.with_changes(simulation.time_s(), |it| it == LaneChangeKind::Discretionary))
     }

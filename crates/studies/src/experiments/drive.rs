@@ -1,4 +1,4 @@
-//! Drives traffic over several seeds, side by side.
+//! Runs simulations of several seeds in parallel.
 
 use laneweave::study::{Estimate, mean};
 use laneweave::{Event, Fault, Simulation};

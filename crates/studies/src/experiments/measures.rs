@@ -8,7 +8,6 @@ use crate::experiments::seen::Seen;
 
 /// What was measured at one place.
 pub(crate) struct Place {
-    /// Its name.
     pub(crate) name: String,
     /// The kinds of traffic there.
     pub(crate) kinds: Vec<String>,

@@ -23,7 +23,7 @@ pub use finding::{Finding, Row};
 
 use laneweave::Fault;
 
-/// An experiment.
+/// A question to the drivers, and how it is answered.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
     /// Its name in commands and files.

@@ -100,7 +100,6 @@ struct AtDemand {
 /// What was found of one model.
 struct OfModel {
     name: &'static str,
-    /// By demand.
     by_demand: Vec<AtDemand>,
     /// By class of density: discretionary and all changes.
     by_density: Vec<(f64, Option<Estimate>, Option<Estimate>)>,
@@ -144,7 +143,7 @@ impl OfModel {
     }
 }
 
-/// Drives all models at all demands, and compares.
+/// Simulates every model at every demand.
 pub(crate) fn town_rates(effort: &Effort) -> Result<Finding, Fault> {
     let of = |model: Option<Model>, demand: f64| Traffic {
         road: Road::Town(SIZE),

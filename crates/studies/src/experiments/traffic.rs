@@ -12,10 +12,8 @@ use laneweave::style::{Model, StyleTemplate};
 use laneweave::{Fault, Simulation};
 use toml::{Table, Value};
 
-/// A road.
 #[derive(Clone, Debug)]
 pub(crate) enum Road {
-    /// A motorway.
     Motorway(Motorway),
     /// The map of ours with this file name.
     Own(&'static str),
@@ -37,7 +35,6 @@ pub(crate) enum Change {
 /// Traffic on a road.
 #[derive(Clone, Debug)]
 pub(crate) struct Traffic {
-    /// The road.
     pub(crate) road: Road,
     /// The law of the road.
     pub(crate) law: Law,

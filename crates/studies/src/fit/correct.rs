@@ -12,7 +12,7 @@ use super::sources::{Part, Sources};
 /// Recordings with more errors are made so often for each multiple of the variance (ours).
 const REPEATS: u64 = 4;
 
-/// Added to the seed, so that errors are not those with which a virtual drone of the same seed made a recording.
+/// Added to the seed: keeps the added errors independent of those of `observe`.
 const OWN_SEEDS: u64 = 0x6f75_7273_0000_0000;
 
 /// A correction for errors of positions.

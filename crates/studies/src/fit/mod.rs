@@ -43,7 +43,7 @@ const LEADS: [f64; 3] = [1.5, 2.5, 3.5];
 /// What styles are fitted to, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// The recordings.
+    /// The files of the recordings.
     pub recordings: Vec<PathBuf>,
     /// Their map; CommonRoad files contain their own.
     pub map: Option<PathBuf>,

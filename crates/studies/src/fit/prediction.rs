@@ -16,11 +16,11 @@ pub struct HeldOut {
     pub log_likelihood_per_event: f64,
     /// By how much it predicts better than a constant chance [nats per change], with the 95 % interval.
     pub over_constant: f64,
-    /// The interval.
+    /// The 95 % interval of the value before.
     pub over_constant_interval: [f64; 2],
     /// By how much multi-criteria decision-making predicts better than it [nats per change], with the 95 % interval.
     pub mcdm_over_it: f64,
-    /// The interval.
+    /// The 95 % interval of the value before.
     pub mcdm_over_it_interval: [f64; 2],
     /// Multi-criteria decision-making is `better` than it, `worse`, or `not distinguishable`.
     pub mcdm_is: &'static str,
@@ -34,11 +34,11 @@ pub struct HeldOut {
 pub struct Elsewhere {
     /// By how much it predicts better than a constant chance [nats per change], with the 95 % interval.
     pub over_constant: f64,
-    /// The interval.
+    /// The 95 % interval of the value before.
     pub over_constant_interval: [f64; 2],
     /// By how much multi-criteria decision-making predicts better than it [nats per change], with the 95 % interval.
     pub mcdm_over_it: f64,
-    /// The interval.
+    /// The 95 % interval of the value before.
     pub mcdm_over_it_interval: [f64; 2],
     /// Multi-criteria decision-making is `better` than it, `worse`, or `not distinguishable`.
     pub mcdm_is: &'static str,

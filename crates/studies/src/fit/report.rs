@@ -58,7 +58,7 @@ pub struct FitReport {
     pub desired_speed_logs: [f64; 2],
     /// Other numbers of the process: the chance per second of a change that nothing explains, and of giving up.
     pub background_per_s: f64,
-    /// Chance per second that who waits for a gap gives up.
+    /// Probability per second that a driver who waits for a gap gives up.
     pub giving_up_per_s: f64,
     /// Standard deviations of the intercepts: of lanes and sides, and of distances before a fork.
     pub place_spread: [f64; 2],

@@ -26,7 +26,6 @@ pub(super) struct Sources {
 
 /// A place with its map.
 pub(super) struct Site {
-    /// The map.
     pub(super) map: SiteMap,
     /// Pairs of lanelets, from the first of which several recorded drivers changed to the second, though the map does
     /// not permit it.
@@ -50,7 +49,6 @@ pub(super) struct SiteMap {
 /// A recording with its map.
 #[derive(Clone)]
 pub(super) struct Part {
-    /// The recording.
     pub(super) recording: Recording,
     /// The number of its site.
     pub(super) site: usize,

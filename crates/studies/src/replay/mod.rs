@@ -1,4 +1,7 @@
 //! Replays: recorded vehicles beside drivers who react, and how well these match what was recorded of them.
+//!
+//! `trace.rs` follows the drivers and their records through simulations. `parting.rs`, `collisions.rs` and `score.rs`
+//! compare them.
 
 mod collisions;
 #[cfg(feature = "reports")]

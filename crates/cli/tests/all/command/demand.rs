@@ -14,7 +14,7 @@ fn without_a_demand_seventy_per_cent_of_the_estimated_capacity_come_and_the_scre
         let folder = Folder::new();
         let run = folder.laneweave(&format!("run MAPS/{map}.osm --duration 1 --record 0"));
         let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
-        let [demand, capacity] = ["demand_veh_h", "entrance_capacity"].map(|it| number(&summary, it));
+        let [demand, capacity] = ["demand_veh_h", "estimated_capacity_veh_h"].map(|it| number(&summary, it));
         assert!((demand - 0.7 * capacity).abs() <= 0.51, "{map}: {demand} of {capacity}");
         let bottleneck = summary["bottleneck"].as_str().unwrap();
         let said = format!(
@@ -31,7 +31,7 @@ fn without_a_demand_seventy_per_cent_of_the_estimated_capacity_come_and_the_scre
 fn on_a_closed_map_the_demand_is_a_share_of_the_estimate_as_well() {
     let folder = Folder::new().with("ring.osm", &closed());
     let summary = folder.summary("ring.osm --duration 1 --record 0");
-    let [demand, capacity] = ["demand_veh_h", "entrance_capacity"].map(|it| number(&summary, it));
+    let [demand, capacity] = ["demand_veh_h", "estimated_capacity_veh_h"].map(|it| number(&summary, it));
     assert!(capacity > 0.0 && (demand - 0.7 * capacity).abs() <= 0.51, "{demand} of {capacity}");
 }
 
@@ -39,7 +39,7 @@ fn on_a_closed_map_the_demand_is_a_share_of_the_estimate_as_well() {
 fn a_demand_above_the_estimate_is_warned_of_with_its_bottleneck() {
     let folder = Folder::new();
     let line = "run MAPS/right_before_left.osm --duration 1 --record 0 --demand";
-    let capacity = number(&folder.summary(&line[4..].replace(" --demand", "")), "entrance_capacity");
+    let capacity = number(&folder.summary(&line[4..].replace(" --demand", "")), "estimated_capacity_veh_h");
     let told = folder.laneweave(&format!("{line} 4000")).errors();
     let warning = format!(
         "warning: demand: 4000 veh/h is above the estimated capacity of {capacity:.0} veh/h (bottleneck: the junction at lanelet \

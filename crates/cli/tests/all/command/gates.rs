@@ -51,7 +51,7 @@ fn a_lanelet_alone_is_neither_entrance_nor_exit() {
     assert_eq!(report["exits"], json!([{ "id": 102, "lanes": 1 }]));
     assert_eq!(report["lane_drops"], json!([]));
     let summary = folder.summary("m.osm --duration 100 --record 0");
-    assert!(summary["left"].as_u64().unwrap() > 5);
+    assert!(summary["completed"].as_u64().unwrap() > 5);
     assert_eq!(summary["trips_of_one_lanelet"], 0);
 }
 
@@ -66,7 +66,7 @@ fn a_road_may_end_with_a_short_lanelet() {
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
     assert_eq!(report["exits"], json!([{ "id": 102, "lanes": 1 }]));
     let summary = folder.summary("m.osm --duration 100 --record 0");
-    assert!(summary["left"].as_u64().unwrap() > 5, "{summary}");
+    assert!(summary["completed"].as_u64().unwrap() > 5, "{summary}");
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn trips_of_one_lanelet_are_counted_and_left_out_of_means() {
     }
     assert!(of_one > 50 && others.len() > 5, "{of_one} and {}", others.len());
     assert_eq!(summary["trips_of_one_lanelet"], of_one);
-    assert_eq!(summary["left"], of_one + others.len() as u64);
+    assert_eq!(summary["completed"], of_one + others.len() as u64);
     let mean = others.iter().sum::<f64>() / others.len() as f64;
     assert!((summary["mean_trip_duration_s"].as_f64().unwrap() - mean).abs() < 1e-6);
 }

@@ -24,11 +24,11 @@ pub(crate) fn assert_golden(path: &Path, text: &str) {
 fn ten_minutes_on_the_motorway_with_ramps_are_as_they_were() {
     const COUNTS: [&str; 14] = [
         "entered",
-        "left",
+        "completed",
         "on_road",
-        "waiting",
+        "waiting_to_enter",
         "lane_changes_discretionary",
-        "lane_changes_route",
+        "lane_changes_route_driven",
         "collisions",
         "overlaps",
         "emergency_brakings",

@@ -232,10 +232,10 @@ fn the_numbers_of_the_report_are_those_of_the_summary_and_the_table() {
     let page = folder.read("out/report.html");
     for (field, name) in [
         ("lane_changes_discretionary", "discretionary lane changes"),
-        ("lane_changes_route", "route-driven lane changes"),
+        ("lane_changes_route_driven", "route-driven lane changes"),
         ("lane_changes_keeping", "lane changes to keep to the slow side"),
         ("entered", "vehicles entered"),
-        ("waiting", "vehicles waiting to enter"),
+        ("waiting_to_enter", "vehicles waiting to enter"),
         ("collisions", "collisions"),
         ("overlaps", "overlaps"),
         ("lost", "lost"),

@@ -102,7 +102,7 @@ fn times_in_tables_are_those_of_whole_steps_without_dust() {
         let text = folder.read(&format!("out/{table}.csv"));
         let mut lines = text.lines();
         let of_steps =
-            ["time_s", "started_s", "duration_s", "entered_s", "left_s", "from_s", "to_s", "standing_s"];
+            ["time_s", "started_s", "duration_s", "entered_s", "completed_s", "from_s", "to_s", "standing_s"];
         let columns: Vec<usize> = (0..)
             .zip(lines.next().unwrap().split(','))
             .filter(|(_, name)| of_steps.contains(name))

@@ -111,7 +111,7 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
             "removed",
             "commands_refused",
             "entered",
-            "left",
+            "completed",
             "lane_changes",
             "considerations",
             "updates",

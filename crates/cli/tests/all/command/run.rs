@@ -7,22 +7,10 @@ use serde_json::Value;
 use crate::command::program::Folder;
 
 /// The fields that users can rely on.
-const FIELDS: &str = "entered left on_road waiting entrance_capacity bottleneck lane_changes lane_changes_discretionary \
-    lane_changes_route lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
+const FIELDS: &str = "entered completed on_road waiting_to_enter estimated_capacity_veh_h bottleneck lane_changes \
+    lane_changes_discretionary lane_changes_route_driven lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
     lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
-    state_hash route_changes completed waiting_to_enter estimated_capacity_veh_h lane_changes_route_driven \
-    lane_changes_keeping hard_brakings";
-
-/// Fields of the summary, columns of `trips` and one of `lanelets` that have an old name, each with it.
-const RENAMED: [(&str, &str); 7] = [
-    ("completed", "left"),
-    ("waiting_to_enter", "waiting"),
-    ("estimated_capacity_veh_h", "entrance_capacity"),
-    ("lane_changes_route_driven", "lane_changes_route"),
-    ("completed_s", "left_s"),
-    ("insertion_delay_s", "waiting_s"),
-    ("completed", "left"),
-];
+    state_hash route_changes lane_changes_keeping hard_brakings";
 
 const TRAJECTORIES: &str = "time_s,vehicle,class,style,lanelet,position_m,offset_m,x_m,y_m,z_m,heading_rad,\
     speed_mps,acceleration_mps2,length_m,width_m,state";
@@ -32,12 +20,12 @@ const LANE_CHANGES: &str = "time_s,started_s,duration_s,vehicle,style,class,from
     courtesy_yield,courtesy_weight,urgency_yield,urgency_weight,keeping_yield,keeping_weight,g,theta,gap_ahead_m,\
     gap_behind_m,ttc_ahead_s,ttc_behind_s,outcome";
 
-const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,left_s,\
-    completed_s,waiting_s,insertion_delay_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,\
+const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,\
+    completed_s,insertion_delay_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,\
     route_changes,missed_turns";
 
 const LANELETS: &str = "lanelet,sumo_lane,length_m,vehicles,flow_veh_h,density_veh_km,speed_mps,standing_s,entered,\
-    left,completed,changes_to_left,changes_to_right,changes_from_left,changes_from_right";
+    completed,changes_to_left,changes_to_right,changes_from_left,changes_from_right";
 
 pub(crate) fn number(summary: &Value, field: &str) -> f64 {
     summary[field].as_f64().unwrap_or_else(|| panic!("{field}: {}", summary[field]))
@@ -73,8 +61,8 @@ fn the_summary_has_all_its_fields_and_adds_up() {
         assert!(!summary[field].is_null(), "{field}");
     }
     let of = |field: &str| number(&summary, field);
-    assert_eq!(of("entered"), of("left") + of("on_road"));
-    let kinds = ["discretionary", "route", "keeping"].map(|it| of(&format!("lane_changes_{it}")));
+    assert_eq!(of("entered"), of("completed") + of("on_road"));
+    let kinds = ["discretionary", "route_driven", "keeping"].map(|it| of(&format!("lane_changes_{it}")));
     assert_eq!(of("lane_changes"), kinds.iter().sum::<f64>());
     assert!(kinds.iter().all(|it| *it > 0.0), "{kinds:?}");
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
@@ -89,22 +77,6 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert_eq!(summary["state_hash"].as_str().unwrap().len(), 16);
     assert_eq!(summary, serde_json::from_str::<Value>(&folder.read("out/summary.json")).unwrap());
     assert!(!folder.holds("out/trajectories.parquet"));
-}
-
-#[test]
-fn what_has_an_old_name_says_the_same_under_both() {
-    let folder = Folder::new();
-    let summary = folder.summary("MAPS/grid.osm --demand 9000 --duration 200 --record 0 --format csv");
-    let ([fields @ .., completed, delay, ended], tables) = (&RENAMED, ["trips", "lanelets"]);
-    for (name, old) in fields {
-        assert!(number(&summary, name) > 0.0, "{name}");
-        assert_eq!(summary[*name], summary[*old], "{name}");
-    }
-    let [trips, lanelets] = tables.map(|it| rows(&folder.read(&format!("out/{it}.csv"))));
-    for (table, (name, old)) in [(&trips, completed), (&trips, delay), (&lanelets, ended)] {
-        assert!(table.iter().all(|row| row[*name] == row[*old]), "{name}");
-        assert!(table.iter().any(|row| row[*name].parse::<f64>().is_ok_and(|it| it > 0.0)), "{name}");
-    }
 }
 
 #[test]
@@ -124,7 +96,7 @@ fn queues_at_the_entrances_are_named_with_what_holds_them() {
     let summary = folder.summary(&line["run ".len()..]);
     let queues = summary["queues"].as_array().unwrap();
     let waiting: Vec<f64> = queues.iter().map(|it| number(it, "waiting")).collect();
-    assert_eq!(waiting.iter().sum::<f64>(), number(&summary, "waiting"));
+    assert_eq!(waiting.iter().sum::<f64>(), number(&summary, "waiting_to_enter"));
     assert!(waiting.len() > 3 && waiting.is_sorted_by(|a, b| a >= b), "{waiting:?}");
     assert!(queues.iter().any(|it| number(&it["held_s"], "red_light") > 10.0));
     assert!(number(&summary, "mean_delay_s") > 0.0 && number(&summary, "mean_stops") > 0.0);
@@ -190,15 +162,16 @@ fn trips_have_a_row_each_also_those_that_began_before_the_measured_time_and_thos
     let count = |summary: &Value, field: &str| summary[field].as_u64().unwrap() as usize;
     assert_eq!(trips.len(), count(&summary, "entered"));
     let of = |trip: &HashMap<String, String>, name: &str| trip[name].parse::<f64>();
-    let (ended, on_road) = trips.split_at(count(&summary, "left"));
+    let (ended, on_road) = trips.split_at(count(&summary, "completed"));
     let durations: Vec<f64> = ended.iter().map(|it| of(it, "duration_s").unwrap()).collect();
     let mean = durations.iter().sum::<f64>() / durations.len() as f64;
     assert!((mean - number(&summary, "mean_trip_duration_s")).abs() < 1e-9);
     let delay = ended.iter().map(|it| of(it, "delay_s").unwrap()).sum::<f64>() / ended.len() as f64;
     assert!((delay - number(&summary, "mean_delay_s")).abs() < 0.05, "{delay}");
     for trip in ended {
-        let [entered, left, duration] = ["entered_s", "left_s", "duration_s"].map(|it| of(trip, it).unwrap());
-        assert!((left - entered - duration).abs() < 1e-9 && left > 60.0);
+        let [entered, completed, duration] =
+            ["entered_s", "completed_s", "duration_s"].map(|it| of(trip, it).unwrap());
+        assert!((completed - entered - duration).abs() < 1e-9 && completed > 60.0);
         // No vehicle is faster than on a free road, except for the effects of limits and of lane changes.
         assert!(
             of(trip, "delay_s").unwrap() > -5.0 && of(trip, "delay_s").unwrap() < 0.7 * duration,
@@ -209,7 +182,7 @@ fn trips_have_a_row_each_also_those_that_began_before_the_measured_time_and_thos
     }
     assert!(ended.iter().any(|it| of(it, "entered_s").unwrap() < 60.0));
     for trip in on_road {
-        let open = ["to_lanelet", "left_s", "duration_s", "delay_s"].map(|it| trip[it].as_str());
+        let open = ["to_lanelet", "completed_s", "duration_s", "delay_s"].map(|it| trip[it].as_str());
         assert_eq!(open, [""; 4]);
     }
     assert!(on_road.is_sorted_by_key(|it| it["vehicle"].parse::<u32>().unwrap()));
@@ -226,8 +199,8 @@ fn who_drives_onto_a_lanelet_drives_off_it_or_is_still_there() {
     let count = |lanelet: &HashMap<String, String>, name: &str| lanelet[name].parse::<i64>().unwrap();
     let total = |name: &str| lanelets.iter().map(|it| count(it, name)).sum::<i64>();
     assert_eq!(
-        [total("entered"), total("left")].map(|it| it as u64),
-        ["entered", "left"].map(|it| summary[it].as_u64().unwrap())
+        [total("entered"), total("completed")].map(|it| it as u64),
+        ["entered", "completed"].map(|it| summary[it].as_u64().unwrap())
     );
     let (away, onto) = (["changes_to_left", "changes_to_right"], ["changes_from_left", "changes_from_right"]);
     let changes =
@@ -265,7 +238,7 @@ fn files_as_sumo_writes_them_are_left_where_they_are_asked_for() {
         fcd.contains("    <timestep time=\"60.00\">\n        <vehicle id=\"")
             && fcd.ends_with("</fcd-export>\n")
     );
-    assert_eq!(trips.matches("<tripinfo id=").count() as u64, summary["left"].as_u64().unwrap());
+    assert_eq!(trips.matches("<tripinfo id=").count() as u64, summary["completed"].as_u64().unwrap());
     assert!(!folder.holds("out/lanechanges.xml"));
     folder.summary("own.toml --out other --sumo lanechange --record 0");
     assert!(folder.holds("other/lanechanges.xml") && !folder.holds("other/fcd.xml"));

@@ -27,7 +27,7 @@ fn a_scenario_as_it_was_written_runs_like_its_map() {
         let duration = if map == "closed.osm" { 200 } else { 30 };
         let [bare, written] =
             [&map, "s.toml"].map(|it| folder.summary(&format!("{it} --duration {duration} --record 0")));
-        for field in ["state_hash", "entered", "demand_veh_h", "entrance_capacity"] {
+        for field in ["state_hash", "entered", "demand_veh_h", "estimated_capacity_veh_h"] {
             assert_eq!(bare[field], written[field], "{map}: {field}");
         }
         assert!(bare["entered"].as_u64().unwrap() > 0, "{map}");

@@ -11,7 +11,7 @@ fn nothing_is_measured_before_the_warm_up_is_over() {
     let line = "MAPS/motorway_2_lanes.osm --duration 60 --warmup 120 --format csv";
     let summary = folder.summary(line);
     assert_eq!((number(&summary, "duration_s"), number(&summary, "warmup_s")), (60.0, 120.0));
-    assert_eq!(number(&summary, "entered"), number(&summary, "left") + number(&summary, "on_road"));
+    assert_eq!(number(&summary, "entered"), number(&summary, "completed") + number(&summary, "on_road"));
     let text = folder.read("out/trajectories.csv");
     let first: f64 = text.lines().nth(1).unwrap().split(',').next().unwrap().parse().unwrap();
     assert_eq!(first, 121.0);
@@ -85,8 +85,8 @@ fn on_a_map_without_gates_trips_start_and_end_along_its_lanes() {
     let summary = Folder::new().summary(&format!("{} --demand 900 --duration 120 --quiet", town.display()));
     let count = |name: &str| summary[name].as_u64().unwrap();
     assert_eq!(number(&summary, "demand_veh_h").round(), 900.0);
-    assert_eq!(count("entered"), count("left") + count("on_road"));
-    assert!(count("left") > 5, "{summary}");
+    assert_eq!(count("entered"), count("completed") + count("on_road"));
+    assert!(count("completed") > 5, "{summary}");
 }
 
 #[test]

@@ -65,7 +65,8 @@ fn the_summary_names_the_estimated_capacity_and_the_light_that_is_its_bottleneck
         )
     };
     let summary = |green: f64| folder(&signals(green)).summary("own.toml --duration 1");
-    let [short, long] = [15.0, 25.0].map(|green| summary(green)["entrance_capacity"].as_f64().unwrap());
+    let [short, long] =
+        [15.0, 25.0].map(|green| summary(green)["estimated_capacity_veh_h"].as_f64().unwrap());
     assert!(short < 0.9 * long, "{short} and {long} veh/h");
     let first = summary(15.0)["bottleneck"].as_str().unwrap().to_owned();
     let lights: Vec<String> =

@@ -50,7 +50,6 @@ impl XmlFile {
         self
     }
 
-    /// An integer.
     pub(super) fn integer(&mut self, value: impl itoa::Integer) -> &mut XmlFile {
         self.text.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());
         self

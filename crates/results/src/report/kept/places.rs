@@ -34,7 +34,6 @@ pub(crate) struct Spotted {
     pub(crate) time: f64,
 }
 
-/// A lane of an entrance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EntranceLane {
     /// The id of the lanelet.

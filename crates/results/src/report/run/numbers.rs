@@ -28,7 +28,7 @@ pub(super) fn section(run: &RunReport) -> Section {
             false => format!("n = {trips} trip"),
         }
     });
-    let Summary { entered, left, on_road, waiting, .. } = summary;
+    let Summary { entered, completed, on_road, waiting_to_enter, .. } = summary;
     let tiles = vec![
         tile(
             summary.lane_changes_per_veh_km.map_or("–".into(), |it| number(it, 3)),
@@ -41,9 +41,9 @@ pub(super) fn section(run: &RunReport) -> Section {
             if_driven(per_km(summary.lane_changes_discretionary)),
         ),
         tile(
-            counted(summary.lane_changes_route),
+            counted(summary.lane_changes_route_driven),
             "route-driven lane changes",
-            if_driven(per_km(summary.lane_changes_route)),
+            if_driven(per_km(summary.lane_changes_route_driven)),
         ),
         tile(
             counted(summary.lane_changes_keeping),
@@ -60,9 +60,9 @@ pub(super) fn section(run: &RunReport) -> Section {
         tile(
             counted(*entered),
             "vehicles entered",
-            format!("= {} completed + {} on the road", counted(*left), counted(*on_road)),
+            format!("= {} completed + {} on the road", counted(*completed), counted(*on_road)),
         ),
-        tile(counted(*waiting), "vehicles waiting to enter", "at the end".into()),
+        tile(counted(*waiting_to_enter), "vehicles waiting to enter", "at the end".into()),
     ];
     let tiles = [tiles, troubles(summary)].concat();
     Section::new("numbers", "Key numbers").tiles(tiles).note(

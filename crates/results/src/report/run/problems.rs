@@ -97,7 +97,7 @@ fn counts(summary: &Summary) -> [(u64, &'static str, &'static str); 6] {
             "no route leads from their position to any exit, as on a lane that ends without an adjacent lane: correct the map there, or give other exits in the demand",
         ),
         (
-            summary.waiting,
+            summary.waiting_to_enter,
             "Vehicles waiting to enter at the end",
             "fewer vehicles can enter than the demand: see the causes of the queues above; reduce the demand, or remove the causes",
         ),
@@ -114,8 +114,8 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
     for (count, what, remedy) in counts(summary) {
         note(count > 0, what, counted(count), remedy);
     }
-    let demand_is_higher = summary.demand_veh_h > summary.entrance_capacity;
-    let share = format!("{:.0} against {:.0} veh/h", summary.demand_veh_h, summary.entrance_capacity);
+    let demand_is_higher = summary.demand_veh_h > summary.estimated_capacity_veh_h;
+    let share = format!("{:.0} against {:.0} veh/h", summary.demand_veh_h, summary.estimated_capacity_veh_h);
     note(
         demand_is_higher,
         "Demand above the estimated capacity",

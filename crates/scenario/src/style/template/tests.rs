@@ -5,7 +5,7 @@ use laneweave_models::follow::FollowingModel;
 use laneweave_models::{Alertness, Attention, Manner, Reading};
 
 use super::*;
-use crate::style::built_in;
+use crate::style::{BUILT_IN, built_in};
 
 fn template(name: &str) -> StyleTemplate {
     let text = built_in(name).unwrap().text.into();
@@ -232,4 +232,14 @@ fn draws_that_are_no_numbers_are_refused_with_their_place() {
     let wrong = StyleTemplate::parse(&Source { path: "own.toml".into(), text }).unwrap();
     assert_eq!(wrong.drawn(0).unwrap_err().what, "safety.min_gap is -1");
     assert!(template.drawn(0).is_ok());
+}
+
+#[test]
+fn a_driver_is_drawn_as_if_the_file_had_its_numbers() {
+    for built_in in BUILT_IN {
+        let template = template(built_in.name);
+        let value = |it: &Parameter| it.distribution.value(0.3);
+        let filled = fill(&template.table, &template.parameters, value).unwrap();
+        assert_eq!(template.typical_with(value), Some(filled), "{}", built_in.name);
+    }
 }

@@ -16,7 +16,6 @@ pub(crate) const TERMS: [&str; 4] = ["intercept", "speed and route", "comfort", 
 pub(crate) struct Exact {
     /// Number of desires among the epochs.
     pub(crate) desires: usize,
-    /// The fit.
     pub(crate) fit: Fit,
     /// The true values of its parameters.
     pub(crate) truth: Vec<f64>,

@@ -6,7 +6,6 @@ use crate::experiments::traffic::{Arriving, Change, Road, Traffic};
 /// Drivers on a road.
 #[derive(Clone, Debug)]
 pub(crate) struct Setting {
-    /// Its name.
     pub(crate) name: &'static str,
     /// The road with all of its drivers.
     pub(crate) traffic: Traffic,

@@ -17,7 +17,6 @@ use crate::experiments::finding::{Row, markdown, quoted, text_of};
 /// What a fit knows, and what it supposes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Variant {
-    /// Its name.
     pub(crate) name: &'static str,
     speeds: Speeds,
     begins: Begins,
@@ -74,7 +73,6 @@ enum Sides {
 enum Errors {
     /// Those of a drone.
     OfADrone,
-    /// None.
     None,
 }
 

@@ -4,6 +4,9 @@
 //! The style is fitted to the first two thirds of the recorded time. In the last third vehicles come when, where and as
 //! fast as they came, and drive on as drivers. A virtual drone sees them, so that recorded and simulated traffic are
 //! measured in the same way.
+//!
+//! `split.rs` cuts recordings in time, `rollout.rs` simulates the recorded demand, all of whose vehicles are drivers,
+//! and `tally.rs` measures recorded and simulated traffic in one way.
 
 mod models;
 #[cfg(feature = "reports")]

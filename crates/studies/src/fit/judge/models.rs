@@ -13,9 +13,7 @@ use super::tally::{Scope, Tally};
 pub(super) enum Rival {
     /// Changes lanes at a constant chance, whatever it sees.
     Null,
-    /// MOBIL.
     Mobil,
-    /// LMRS.
     Lmrs,
 }
 

@@ -42,7 +42,6 @@ pub(super) struct Drivers {
 pub(super) struct Rollout {
     /// What a drone recorded of it. Its frames are those of the recording.
     pub(super) recording: Recording,
-    /// Collisions.
     pub(super) collisions: u64,
 }
 

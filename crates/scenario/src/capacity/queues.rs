@@ -1,0 +1,119 @@
+//! The flows of the queues of some drivers, each computed once: many lights and lanes of a map have the same queue.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use laneweave_models::Style;
+use laneweave_network::{Phase, Program};
+use laneweave_sim::Fleet;
+
+use super::side_by_side;
+use super::stream::Mixture;
+
+/// The queues of drivers, each style with its weight, in the vehicles of a fleet.
+pub(crate) struct Queues {
+    drivers: Vec<(Style, f64)>,
+    fleet: Fleet,
+    /// Flows of lanes [veh/s], by limit [m/s] and curvature [1/m].
+    streams: Known,
+    /// Vehicles that pass in a green, by its length [s] and the limit [m/s].
+    greens: Known,
+    /// Flows of lanes side by side [veh/s], by their number and limit [m/s].
+    beside: Known,
+}
+
+impl Queues {
+    pub(crate) fn new(drivers: &[(Style, f64)], fleet: Fleet) -> Queues {
+        let [streams, greens, beside] = [(); 3].map(|()| Known::default());
+        Queues { drivers: drivers.to_vec(), fleet, streams, greens, beside }
+    }
+
+    /// The vehicles and drivers under a limit [m/s], in a bend of this curvature [1/m]; 0: on a straight lane.
+    pub(super) fn mixture(&self, limit: f64, curvature: f64) -> Mixture<'_> {
+        Mixture::new(limit, &self.drivers, &self.fleet).in_bend(curvature)
+    }
+
+    /// The capacity of a single lane without a light, if it is alone [veh/s].
+    pub(super) fn stream(&self, limit: f64, curvature: f64) -> f64 {
+        self.streams.get([limit, curvature], || self.mixture(limit, curvature).stream())
+    }
+
+    /// Flow through a light with a queue before it [veh/s].
+    pub(super) fn through(&self, program: &Program, limit: f64) -> f64 {
+        if program.phases.is_empty() {
+            return self.stream(limit, 0.0);
+        }
+        let pass = |it: &Phase| {
+            let green = it.to - it.from;
+            self.greens.get([green, limit], || self.mixture(limit, 0.0).pass_at_green(green))
+        };
+        program.phases.iter().map(pass).sum::<f64>() / program.cycle
+    }
+
+    /// The share of the capacity of so many `lanes` side by side under `limit` [m/s] that lane changes leave.
+    pub(super) fn left(&self, lanes: usize, limit: f64) -> f64 {
+        if lanes < 2 {
+            return 1.0;
+        }
+        let alone = lanes as f64 * self.stream(limit, 0.0);
+        let left = || {
+            let flow = side_by_side::flow(lanes, limit, &self.drivers, &self.fleet);
+            flow.map_or(1.0, |it| (it / alone).min(1.0))
+        };
+        self.beside.get([lanes as f64, limit], left)
+    }
+}
+
+/// What was computed, by two numbers.
+#[derive(Default)]
+struct Known(RefCell<BTreeMap<[u64; 2], f64>>);
+
+impl Known {
+    /// The value for `key`; computed if there is none.
+    fn get(&self, key: [f64; 2], compute: impl FnOnce() -> f64) -> f64 {
+        let bits = key.map(f64::to_bits);
+        if let Some(known) = self.0.borrow().get(&bits) {
+            return *known;
+        }
+        let new = compute();
+        self.0.borrow_mut().insert(bits, new);
+        new
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_maps::generate::{Grid, grid};
+
+    use super::super::{Roads, lanes};
+    use super::*;
+    use crate::scenario::{Origin, Prepared, Scenario, prepare_on};
+
+    /// A grid with so many streets in each direction, ready to run with a demand that is given.
+    fn prepared(streets: usize) -> Prepared {
+        let wanted = Grid { rows: streets, columns: streets, ..Grid::default() };
+        let map = grid(&wanted).unwrap().build().unwrap();
+        let mut scenario = Scenario::of_map("grid.osm".into());
+        scenario.demand.vehicles_per_hour = Some(1000.0);
+        prepare_on(map, &scenario, &Origin::default()).unwrap()
+    }
+
+    #[test]
+    fn a_larger_town_has_no_more_queues() {
+        let counts = [2, 4].map(|streets| {
+            let Prepared { world, .. } = prepared(streets);
+            let queues = Queues::new(&[(world.driver_parameters()[0].clone(), 1.0)], Fleet::default());
+            let (network, assignment) = (world.network(), &world.assignment([0.0, 1.0]));
+            lanes::loads(&Roads { network, assignment, queues: &queues });
+            [&queues.streams, &queues.greens, &queues.beside].map(|it| it.0.borrow().len())
+        });
+        assert!(counts[0][1] > 0 && counts[0] == counts[1], "{counts:?}");
+    }
+
+    #[test]
+    fn nothing_is_estimated_before_somebody_asks() {
+        let prepared = prepared(1);
+        assert_eq!(format!("{:?}", prepared.capacity), "LazyLock(<uninit>)");
+        assert!(prepared.capacity.veh_h > 0.0);
+    }
+}
