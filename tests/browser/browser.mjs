@@ -7,7 +7,7 @@ import { once } from 'node:events';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
 
-const PATIENCE_MS = 120_000;
+const PATIENCE_MS = 600_000;
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** A browser in which pictures are drawn by Mesa. It needs a display, such as that of xvfb-run. */

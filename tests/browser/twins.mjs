@@ -98,7 +98,7 @@ export async function a_run_and_its_twin({ browser, program, home, folder, shots
   run('run', path.join(home, 'maps/ramps.osm'), '--demand', '5000', '--duration', '240', '--out', 'base', '--quiet');
   const change = ['--at', '60', '--set', 'style.speed.weight=10'];
   for (const [args, part] of [[['view', 'base', '--set', 'style.speed.weight=2'], '--at'], [['view', path.join(home, 'maps/ramps.osm'), ...change], 'ended'], [['view', 'base', '--export', 'twin.html', ...change], '--export']]) {
-    const { status, stderr } = spawnSync(program, args, { cwd: folder, encoding: 'utf8', timeout: 60_000 });
+    const { status, stderr } = spawnSync(program, args, { cwd: folder, encoding: 'utf8', timeout: 600_000 });
     assert.ok(status === 2 && stderr.includes(part), `${args}: ${status} ${stderr}`);
   }
   const server = await view(program, ['base', ...change], folder);

@@ -1,6 +1,7 @@
 //! Time and memory grow with a file, not with the square of its size.
-
-use std::time::Instant;
+//!
+//! Nothing here looks at a clock: the files are so large that work which grew with the square would take minutes to
+//! hours, and gigabytes.
 
 use laneweave_maps::{Map, MapError, ReadOptions, commonroad, lanelet2};
 
@@ -23,14 +24,6 @@ fn lanelet(id: usize, left: i64, right: i64, more: &str) -> String {
 
 fn read(text: &str) -> Result<Map, MapError> {
     lanelet2::read(text.as_bytes(), &ReadOptions::default())
-}
-
-/// The result of `of`, which must take seconds, not minutes.
-fn soon<T>(of: impl FnOnce() -> T) -> T {
-    let started = Instant::now();
-    let result = of();
-    assert!(started.elapsed().as_secs() < 5, "{:?}", started.elapsed());
-    result
 }
 
 #[test]
@@ -70,30 +63,30 @@ fn a_border_is_drawn_for_no_more_than_32_crosswalks() {
 }
 
 #[test]
-fn a_long_border_that_thousands_share_takes_no_time() {
+fn a_long_border_that_thousands_share_is_read_once() {
     let nodes: String = (0..30_000).map(|id| format!("<node id='{}' x='{id}' y='9'/>", 100 + id)).collect();
     for last in ["", "<nd ref='-7'/>"] {
         let border: String = (0..30_000).map(|id| format!("<nd ref='{}'/>", 100 + id)).collect();
         let lanelets: String = (100..30_100).map(|id| lanelet(id, 13, 11, "")).collect();
         let text = lane_and(&format!("{nodes}<way id='13'>{border}{last}</way>{lanelets}"));
-        let map = soon(|| read(&text)).unwrap();
+        let map = read(&text).unwrap();
         assert_eq!((map.network.lanelets.len(), map.problems.len()), (1, 30_000));
     }
 }
 
 #[test]
-fn a_long_speed_limit_rule_that_a_lanelet_names_thousands_of_times_takes_no_time() {
+fn a_long_speed_limit_rule_that_a_lanelet_names_thousands_of_times_is_read_once() {
     let rule = format!(
         "<relation id='31'>{}<tag k='subtype' v='speed_limit'/></relation>",
         "<member type='way' ref='11' role='refers'/>".repeat(60_000)
     );
     let named = "<member type='relation' ref='31' role='regulatory_element'/>".repeat(60_000);
-    let map = soon(|| read(&lane_and(&(rule + &lanelet(22, 11, 12, &named))))).unwrap();
+    let map = read(&lane_and(&(rule + &lanelet(22, 11, 12, &named)))).unwrap();
     assert_eq!(map.network.lanelets[1].speed_limit, 50.0 / 3.6);
 }
 
 #[test]
-fn thousands_of_lanelets_in_a_scenario_of_thousands_of_tags_take_no_time() {
+fn thousands_of_lanelets_read_the_thousands_of_tags_of_their_scenario_once() {
     let line = |name: &str, y: usize| {
         let point = |x: usize| format!("<point><x>{x}</x><y>{y}</y></point>");
         format!("<{name}>{}{}</{name}>", point(0), point(9))
@@ -107,6 +100,6 @@ fn thousands_of_lanelets_in_a_scenario_of_thousands_of_tags_take_no_time() {
     };
     let lanelets: String = (0..20_000).map(lanelet).collect();
     let text = format!("<commonRoad tags='{}'>{lanelets}</commonRoad>", "odd ".repeat(500_000));
-    let map = soon(|| commonroad::read(text.as_bytes(), &ReadOptions::default())).unwrap();
+    let map = commonroad::read(text.as_bytes(), &ReadOptions::default()).unwrap();
     assert!(map.network.lanelets.iter().all(|it| it.speed_limit == 50.0 / 3.6));
 }

@@ -1,7 +1,6 @@
 //! The drawings of the town generators.
 
 use std::collections::HashSet;
-use std::time::Instant;
 
 use laneweave_maps::generate::{Arterial, Control, Grid, approach, arterial, grid, roundabout, town};
 use laneweave_maps::{Drawing, Map, NodeIndex, RuleKind, Sense, lanelet2, routes};
@@ -385,13 +384,11 @@ fn what_cannot_be_a_grid_is_refused_with_the_range() {
 }
 
 #[test]
-fn four_hundred_junctions_take_seconds() {
-    let started = Instant::now();
+fn a_grid_of_four_hundred_junctions_has_the_paths_and_the_size_that_it_should() {
     let wanted = Grid { rows: 20, columns: 20, lanes: 1, ..Grid::default() };
     let drawing = grid(&wanted).unwrap();
     let text = lanelet2::write(&drawing);
     assert!(text.len() < 25_000_000, "{}", text.len());
     // Twelve paths over each junction.
     assert_eq!(map(&drawing).graph.nodes.iter().filter(|it| it.following.len() == 3).count(), 1600);
-    assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
 }

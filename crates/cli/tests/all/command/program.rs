@@ -38,6 +38,11 @@ impl Folder {
         self.0.join(name).exists()
     }
 
+    /// The length of a file [bytes]; 0 if it does not exist.
+    pub(crate) fn length(&self, name: &str) -> u64 {
+        fs::metadata(self.0.join(name)).map_or(0, |it| it.len())
+    }
+
     /// Runs the program here, with the arguments in `line` separated by spaces.
     pub(crate) fn laneweave(&self, line: &str) -> Run {
         let line = line.replace("MAPS", maps().to_str().unwrap());

@@ -1,42 +1,6 @@
 //! The folder of results.
 
-use serde_json::Value;
-
 use crate::command::program::Folder;
-use crate::command::run::number;
-
-/// Stops a run as Ctrl-C does.
-#[cfg(unix)]
-#[test]
-fn an_interrupted_run_leaves_what_it_computed() {
-    use std::process::{Command, Stdio};
-    use std::thread::sleep;
-    use std::time::Duration;
-
-    let folder = Folder::new();
-    let map = crate::command::program::maps().join("motorway_2_lanes.osm");
-    let child = Command::new(env!("CARGO_BIN_EXE_laneweave"))
-        .arg("run")
-        .arg(map)
-        .args(["--duration", "1e6", "--json", "--record", "0"])
-        .current_dir(folder.path())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    while !folder.holds("out/lane_changes.parquet.partial") {
-        sleep(Duration::from_millis(20));
-    }
-    sleep(Duration::from_millis(500));
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(summary["interrupted"], true);
-    let duration = number(&summary, "duration_s");
-    assert!(duration > 0.0 && duration < 1e6, "{duration}");
-    assert!(folder.holds("out/lane_changes.parquet") && folder.holds("out/time_space.svg"));
-    assert!(!folder.holds("out/lane_changes.parquet.partial"));
-}
 
 #[test]
 fn a_folder_takes_the_results_of_one_run_at_a_time() {

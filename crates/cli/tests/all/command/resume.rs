@@ -1,8 +1,9 @@
 //! Runs that are killed at any moment and resumed have the same results as uninterrupted ones.
 
-use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use laneweave_test_data::size;
 
 use crate::command::program::{Folder, maps};
 
@@ -41,12 +42,6 @@ fn with_commands() -> Folder {
     Folder::new().with("own.toml", &scenario).with("acts.csv", &acts)
 }
 
-/// The number of killed runs: LANEWEAVE_KILLS, or a few.
-fn kills() -> u64 {
-    const FEW: u64 = 8;
-    std::env::var("LANEWEAVE_KILLS").ok().and_then(|it| it.parse().ok()).unwrap_or(FEW)
-}
-
 /// Uniformly distributed in [0, 1), the same numbers in each test.
 fn drawn(number: u64) -> f64 {
     let mixed = (number + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -54,47 +49,53 @@ fn drawn(number: u64) -> f64 {
     (mixed >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Starts the program in `folder` and kills it after `delay`, if it still runs.
-fn killed(folder: &Path, line: &str, delay: Duration) {
+/// Starts the program in `folder` and kills it when its file of trajectories has so many bytes, if it still runs; below
+/// zero at once.
+fn killed(folder: &Folder, line: &str, bytes: f64) {
     let line = line.replace("MAPS", maps().to_str().unwrap());
     let mut child = Command::new(env!("CARGO_BIN_EXE_laneweave"))
         .args(line.split_whitespace())
-        .current_dir(folder)
+        .current_dir(folder.path())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    std::thread::sleep(delay);
+    let is_early = || (folder.length("out/trajectories.csv.partial") as f64) < bytes;
+    while is_early() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
     let _ = child.kill();
     child.wait().unwrap();
 }
 
 #[test]
 fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
+    let wanted = size().pick(5, 60);
     let undisturbed = with_commands();
-    let started = Instant::now();
     let expected = undisturbed.summary(RUN);
     assert!(expected["inserted"].as_u64() > Some(20) && expected["commands_refused"].as_u64() > Some(0));
-    // Kills happen within this time, which depends on the present speed of the machine.
-    let mut window = started.elapsed();
+    // From a kill at once to one at the end.
+    let whole = undisturbed.length("out/trajectories.csv") as f64;
+    let moment = |number: u64| whole * (1.1 * drawn(number) - 0.05);
     let read = |folder: &Folder, file: &str| std::fs::read(folder.path().join("out").join(file)).unwrap();
     let is_same = |folder: &Folder, file: &str| read(folder, file) == read(&undisturbed, file);
-    let (mut resumed, mut from_a_checkpoint, mut ended) = (0, 0, 0);
-    for number in 0..kills() {
+    let (mut resumed, mut from_a_checkpoint) = (0, 0);
+    for number in 0..10 * wanted {
+        if resumed == wanted {
+            break;
+        }
         let folder = with_commands();
         let out = folder.path().join("out");
-        killed(folder.path(), &format!("run {RUN} --json"), window.mul_f64(drawn(2 * number)));
+        killed(&folder, &format!("run {RUN} --json"), moment(2 * number));
         if !out.join("scenario.toml").exists() {
             // Killed before any file existed.
-            window = window.mul_f64(1.05);
             continue;
         }
         // Every third is killed once more.
         if number % 3 == 0 {
-            killed(folder.path(), "run out --resume", window.mul_f64(drawn(2 * number + 1)));
+            killed(&folder, "run out --resume", moment(2 * number + 1));
         }
         let has_ended = out.join("summary.json").exists();
-        window = window.mul_f64(if has_ended { 0.85 } else { 1.02 });
         // A file with its final name is complete.
         for file in &FILES[..10] {
             if out.join(file).exists() {
@@ -102,7 +103,6 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
             }
         }
         resumed += u64::from(!has_ended);
-        ended += u64::from(has_ended);
         from_a_checkpoint += u64::from(!has_ended && out.join("checkpoint").exists());
         let summary = folder.summary("out --resume");
         for field in [
@@ -130,8 +130,8 @@ fn killed_at_any_moment_a_run_is_resumed_and_ends_as_if_undisturbed() {
         assert!(left_over.is_empty(), "{left_over:?} after kill {number}");
     }
     assert!(
-        resumed >= kills() / 4 && from_a_checkpoint >= kills() / 8,
-        "{resumed} resumed, {from_a_checkpoint} from a checkpoint, {ended} had ended"
+        resumed == wanted && from_a_checkpoint > 0,
+        "{resumed} resumed, {from_a_checkpoint} from a checkpoint"
     );
 }
 

@@ -8,6 +8,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::command::program::{Folder, maps};
+use crate::command::run::number;
 
 /// A run of some days, which has begun to write its results.
 fn long_run(folder: &Folder, options: &str) -> Child {
@@ -15,11 +16,10 @@ fn long_run(folder: &Folder, options: &str) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_laneweave"));
     command.args(line.split_whitespace()).current_dir(folder.path());
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    while !folder.holds("out/trajectories.csv.partial") && !folder.holds("out/checkpoint") {
+    // It listens to signals before it writes anything.
+    while folder.length("out/trajectories.csv.partial") == 0 && !folder.holds("out/checkpoint") {
         std::thread::sleep(Duration::from_millis(10));
     }
-    // The signal handler is installed a moment later, at the latest.
-    std::thread::sleep(Duration::from_millis(300));
     child
 }
 
@@ -41,8 +41,11 @@ fn ctrl_c_and_a_termination_end_a_run_with_whole_results_and_the_code_of_the_sig
         assert_eq!(text, folder.read("out/summary.json"));
         let summary: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(summary["interrupted"], true);
+        // It has written of what it simulated.
+        let duration = number(&summary, "duration_s");
+        assert!(duration > 0.0 && duration < 1e6, "{duration}");
         assert!(folder.read("out/trajectories.csv").ends_with('\n'));
-        for file in ["trips.csv", "lanelets.csv", "lane_changes.csv", "report.html"] {
+        for file in ["trips.csv", "lanelets.csv", "lane_changes.csv", "time_space.svg", "report.html"] {
             assert!(folder.holds(&format!("out/{file}")), "{file}");
         }
         let files = std::fs::read_dir(folder.path().join("out")).unwrap();

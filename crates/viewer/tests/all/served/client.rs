@@ -1,6 +1,6 @@
 //! What a page does, without a browser.
 
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::{Duration, Instant};
 
@@ -9,8 +9,8 @@ use laneweave_test_data::map;
 use laneweave_viewer::{Live, Server, Source, Token};
 use tungstenite::{Message, WebSocket, client};
 
-/// Nothing takes longer than this, on a machine that others use, too.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
+/// Who waits longer waits in vain, however slow the machine is.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A simulation of a map.
 pub(crate) fn live(name: &str) -> Live {
@@ -31,19 +31,21 @@ pub(crate) fn serving(source: Box<dyn Source>) -> (Server, String) {
     (Server::start(source, address, token).expect("a server"), text)
 }
 
-/// Sends bytes, and returns what comes back until the server closes the connection, or for some seconds.
-pub(crate) fn raw(server: &Server, bytes: &[u8], seconds: u64) -> String {
+/// Sends bytes, and returns what comes back until the server closes the connection.
+pub(crate) fn raw(server: &Server, bytes: &[u8]) -> String {
     let mut stream = TcpStream::connect(server.address().to_string()).expect("a connection");
-    stream.set_read_timeout(Some(Duration::from_secs(seconds))).expect("a timeout");
+    stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
     // The server may have closed it before it has all.
     let _ = stream.write_all(bytes);
     let mut answer = Vec::new();
     let mut part = [0; 4096];
-    while let Ok(count) = stream.read(&mut part) {
-        if count == 0 {
-            break;
+    loop {
+        match stream.read(&mut part) {
+            Ok(0) => break,
+            Ok(count) => answer.extend_from_slice(&part[..count]),
+            Err(error) if error.kind() == ErrorKind::WouldBlock => panic!("the connection stays open"),
+            Err(_) => break,
         }
-        answer.extend_from_slice(&part[..count]);
     }
     String::from_utf8_lossy(&answer).into_owned()
 }

@@ -13,7 +13,7 @@ fn strangers_get_nothing() {
     let own = format!("127.0.0.1:{port}");
     let ask = |line: &str, host: &str, more: &str| {
         let request = format!("{line} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n");
-        raw(&server, request.as_bytes(), 10)
+        raw(&server, request.as_bytes())
     };
     let scene = format!("GET /scene.json?token={token}");
     let good = ask(&scene, &own, "");
@@ -28,10 +28,10 @@ fn strangers_get_nothing() {
     for token in ["", "?token=", "?token=0123456789abcdef0123456789abcdef"] {
         assert_eq!(status(&ask(&format!("GET /scene.json{token}"), &own, "")), "403");
         let upgrade = format!(
-            "GET /live{token} HTTP/1.1\r\nHost: {own}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+            "GET /live{token} HTTP/1.1\r\nHost: {own}\r\nUpgrade: websocket\r\nConnection: Upgrade, close\r\n\
              Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
         );
-        assert_eq!(status(&raw(&server, upgrade.as_bytes(), 1)), "403");
+        assert_eq!(status(&raw(&server, upgrade.as_bytes())), "403");
     }
     // Nothing else is there, and nothing can be put there.
     for line in [
@@ -54,7 +54,7 @@ fn the_page_is_served_whole_with_its_script_and_asks_for_no_other_file() {
     let page = include_str!("../../../page/index.html");
     let (server, _) = server(live("ramps.osm"));
     let request = format!("GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", server.address());
-    let answer = raw(&server, request.as_bytes(), 10);
+    let answer = raw(&server, request.as_bytes());
     let (head, body) = answer.split_once("\r\n\r\n").expect("a body");
     assert_eq!(status(head), "200", "{head}");
     assert!(head.contains("content-type: text/html; charset=utf-8"), "{head}");

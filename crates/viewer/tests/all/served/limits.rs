@@ -110,8 +110,8 @@ fn a_message_that_is_wrong_ends_the_connection_with_a_reason() {
 fn a_flood_ends_the_connection() {
     let (server, token) = server(live("ramps.osm"));
     let mut page = Page::of(&server, &token);
-    let all = (0..2000).take_while(|_| page.say("{\"lanes\":false}")).count();
-    assert!(all < 2000 || page.end().is_none_or(|it| it == "too many messages"));
+    assert!((0..10_000_000).any(|_| !page.say("{\"lanes\":false}")), "it is never too much");
+    assert!(page.end().is_none_or(|it| it == "too many messages"));
     // Another page is served all the same.
     let mut other = Page::of(&server, &token);
     assert!(other.frame().is_some());
@@ -120,11 +120,9 @@ fn a_flood_ends_the_connection() {
 #[test]
 fn slow_and_large_requests_are_cut_off() {
     let (server, _) = server(live("ramps.osm"));
-    let begin = Instant::now();
-    raw(&server, b"GET / HTTP/1.1\r\nHost: ", 30);
-    assert!((Duration::from_secs(2)..Duration::from_secs(20)).contains(&begin.elapsed()));
+    assert_eq!(raw(&server, b"GET / HTTP/1.1\r\nHost: "), "");
     let large = format!("GET / HTTP/1.1\r\nX: {}\r\n\r\n", "x".repeat(1 << 20));
-    assert!(!raw(&server, large.as_bytes(), 30).contains("200 OK"));
+    assert!(!raw(&server, large.as_bytes()).contains("200 OK"));
 }
 
 #[test]
@@ -134,7 +132,7 @@ fn more_pages_than_there_is_room_for_are_turned_away_until_one_leaves() {
     assert!(Page::try_of(&server, &token).is_none());
     drop(pages.pop());
     let begin = Instant::now();
-    let comes = || (begin.elapsed() < Duration::from_secs(10)).then(|| Page::try_of(&server, &token));
+    let comes = || (begin.elapsed() < PATIENCE).then(|| Page::try_of(&server, &token));
     let found = std::iter::from_fn(comes).flatten().next();
     assert!(found.is_some());
 }
