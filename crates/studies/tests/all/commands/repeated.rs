@@ -142,7 +142,7 @@ fn a_run_of_a_program_is_repeated_from_its_table_and_has_twins() {
     // Nobody else differs before, and the same drivers come.
     assert!(differences.vehicles.values().all(|it| it.since_s >= 20.1));
     let [base, branch] = [&without.base, &without.branch];
-    let arrived = |it: &Simulation| it.counts().entered + it.waiting_to_enter() as u64;
+    let arrived = |it: &Simulation| it.counts().entered - it.counts().inserted + it.waiting_to_enter() as u64;
     assert_eq!(arrived(base), arrived(branch));
     let driver = |it: laneweave::sim::Vehicle| (it.id(), it.driver.class, it.driver.parameters);
     let both: Vec<_> = base.views().filter_map(|it| Some((it, branch.view(it.id())?))).collect();
