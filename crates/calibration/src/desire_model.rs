@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_models::change::discomfort;
+use laneweave_models::change::{IncentiveName, discomfort};
 use laneweave_network::Side;
 
-use crate::observe::{ByDesired, NODES, Observations, Place, SideSeen, Sighting, gap_terms};
+use crate::observe::{ByDesired, NODES, Observations, PLAIN, Place, SideSeen, Sighting, gap_terms};
 use crate::place_spread::PlaceSpread;
 use crate::prior::Prior;
 use crate::waiting::{Assumptions, Design, Driver, Layout, NO_STRATUM, Spell, logit};
@@ -44,14 +44,17 @@ impl DesireModel {
     }
 
     /// The names of its terms.
-    pub fn terms(&self) -> &'static [&'static str] {
+    pub fn terms(&self) -> Vec<&'static str> {
         match self {
-            DesireModel::Constant | DesireModel::Places => &[],
-            DesireModel::Mcdm { .. } => &["speed", "comfort", "courtesy", "keeping"],
-            DesireModel::Mobil => &["gain"],
-            DesireModel::Lmrs => &["desire"],
+            DesireModel::Constant | DesireModel::Places => Vec::new(),
+            DesireModel::Mcdm { .. } => {
+                let plain = PLAIN.map(IncentiveName::name);
+                ["speed", "comfort", "courtesy"].into_iter().chain(plain).collect()
+            }
+            DesireModel::Mobil => vec!["gain"],
+            DesireModel::Lmrs => vec!["desire"],
             DesireModel::Raw => {
-                &["own gap", "own closing", "lead gap", "lead closing", "lag gap", "lag closing", "speed"]
+                vec!["own gap", "own closing", "lead gap", "lead closing", "lag gap", "lag closing", "speed"]
             }
         }
     }
@@ -69,12 +72,14 @@ impl DesireModel {
     pub(crate) fn add_terms(&self, seen: &SideSeen, by_desired: &ByDesired, values: &mut Vec<f64>) {
         match self {
             DesireModel::Constant | DesireModel::Places => {}
-            DesireModel::Mcdm { beta } => values.extend([
-                f64::from(by_desired.speed),
-                discomfort(f64::from(seen.headway), *beta),
-                f64::from(seen.courtesy),
-                f64::from(by_desired.keeping),
-            ]),
+            DesireModel::Mcdm { beta } => {
+                values.extend([
+                    f64::from(by_desired.speed),
+                    discomfort(f64::from(seen.headway), *beta),
+                    f64::from(seen.courtesy),
+                ]);
+                values.extend(by_desired.plain.map(f64::from));
+            }
             DesireModel::Mobil => values.push(f64::from(by_desired.mobil)),
             DesireModel::Lmrs => values.push(f64::from(by_desired.lmrs)),
             DesireModel::Raw => {

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use crate::classes::{Mixture, are_two};
 use crate::desire_model::{DesireModel, assumptions};
 use crate::held_out::{Candidate, Difference, Folds, interval};
-use crate::observe::Observations;
+use crate::observe::{Observations, PLAIN};
 use crate::place_spread::{PlaceSpread, effect};
 use crate::prior::Prior;
 use crate::resample::resampled;
@@ -22,8 +22,8 @@ pub struct PriorWeights {
     pub comfort: f64,
     /// μ₄ of courtesy.
     pub courtesy: f64,
-    /// The weight of the slow side.
-    pub keeping: f64,
+    /// The weights of the [`PLAIN`] incentives.
+    pub plain: [f64; PLAIN.len()],
     /// β of comfort.
     pub beta: f64,
     /// α of coming back [1/(s·m)].
@@ -89,7 +89,7 @@ pub struct Compared {
 /// A fit of a style to observations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Speed (with the route in the proportion of the prior), comfort, courtesy, slow side.
+    /// Those of the terms of multi-criteria decision-making; speed with the route in the proportion of the prior.
     pub weights: Vec<Fitted>,
     /// θ, in units of the choice noise.
     pub theta: Fitted,
@@ -130,8 +130,8 @@ const SIGNIFICANT: f64 = 1.920_729;
 
 impl PriorWeights {
     /// Those of the terms of multi-criteria decision-making.
-    pub fn terms(&self) -> [f64; 4] {
-        [self.speed, self.comfort, self.courtesy, self.keeping]
+    pub fn terms(&self) -> Vec<f64> {
+        [self.speed, self.comfort, self.courtesy].into_iter().chain(self.plain).collect()
     }
 }
 
@@ -203,8 +203,8 @@ fn mixture(design: &Design, assumptions: &Assumptions, fit: &WaitingFit, asked: 
 /// The weights of a fit with the terms of multi-criteria decision-making.
 fn weights(fit: &WaitingFit, draws: &[Vec<f64>], values: &PriorWeights, prior: &Prior) -> Vec<Fitted> {
     let names = DesireModel::Mcdm { beta: values.beta }.terms();
-    let each = names.iter().zip(values.terms()).zip(fit.layout.slopes());
-    let of = |((name, value), at): ((&&'static str, f64), usize)| {
+    let each = names.into_iter().zip(values.terms()).zip(fit.layout.slopes());
+    let of = |((name, value), at): ((&'static str, f64), usize)| {
         let mut fitted = Fitted::of_parameter(name, (at, 1.0), fit, draws, value);
         fitted.is_identified &= !is_the_prior(fit, prior, at);
         fitted
@@ -309,7 +309,7 @@ fn compared(
     let folds = &asked.folds;
     let of = |model: &DesireModel| {
         let means = match model {
-            DesireModel::Mcdm { .. } => asked.prior.terms().to_vec(),
+            DesireModel::Mcdm { .. } => asked.prior.terms(),
             _ => vec![0.0; model.terms().len()],
         };
         Candidate::of(observations, model, (&means, spread), folds)

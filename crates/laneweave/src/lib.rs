@@ -27,6 +27,7 @@ pub mod run;
 mod simulation;
 
 pub use laneweave_models::Parameter;
+pub use laneweave_models::change::IncentiveName;
 pub use laneweave_network::{LightState, Side};
 #[cfg(feature = "reports")]
 pub use laneweave_results::report;

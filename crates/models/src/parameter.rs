@@ -1,8 +1,9 @@
 //! The numbers of a style, by their keys in a style file, with their ranges.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::change::LaneChangeModel;
+use crate::change::{IncentiveName, LaneChangeModel, with_incentives};
 use crate::follow::FollowingModel;
 use crate::style::Style;
 
@@ -42,31 +43,41 @@ impl Range {
     }
 }
 
-/// Makes [`Parameter`] from lists of names, keys, ranges and places in a style.
+/// Makes [`Parameter`] from the list of incentives, and from lists of names, keys, ranges and places in a style.
 macro_rules! parameters {
     (
+        incentives { $($(#[$about:meta])* $incentive_key:ident $incentive:ident;)+ }
         follow { $($follow:ident $follow_key:literal $follow_range:expr,
             [$($following:ident)+] $follow_field:ident;)+ }
         change { $($change:ident $change_key:literal $change_range:expr, $changing:ident $($change_field:ident).+;)+ }
         other { $($other:ident $other_key:literal $other_range:expr, $($other_field:ident).+;)+ }
     ) => {
         /// A number of a style. It is written as its key in a style file.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Parameter {
-            $(#[doc = concat!("`", $follow_key, "`")] #[serde(rename = $follow_key)] $follow,)+
-            $(#[doc = concat!("`", $change_key, "`")] #[serde(rename = $change_key)] $change,)+
-            $(#[doc = concat!("`", $other_key, "`")] #[serde(rename = $other_key)] $other,)+
+            $(#[doc = concat!("`", $follow_key, "`")] $follow,)+
+            /// The weight of an incentive, such as `change.speed.weight`.
+            Weight(IncentiveName),
+            $(#[doc = concat!("`", $change_key, "`")] $change,)+
+            $(#[doc = concat!("`", $other_key, "`")] $other,)+
         }
 
         impl Parameter {
             /// All of them.
-            pub const ALL: &'static [Parameter] =
-                &[$(Parameter::$follow,)+ $(Parameter::$change,)+ $(Parameter::$other,)+];
+            pub const ALL: &'static [Parameter] = &[
+                $(Parameter::$follow,)+
+                $(Parameter::Weight(IncentiveName::$incentive),)+
+                $(Parameter::$change,)+
+                $(Parameter::$other,)+
+            ];
 
             /// Its key in a style file.
             pub fn key(self) -> &'static str {
                 match self {
                     $(Parameter::$follow => $follow_key,)+
+                    $(Parameter::Weight(IncentiveName::$incentive) => {
+                        concat!("change.", stringify!($incentive_key), ".weight")
+                    })+
                     $(Parameter::$change => $change_key,)+
                     $(Parameter::$other => $other_key,)+
                 }
@@ -77,6 +88,7 @@ macro_rules! parameters {
             pub fn range(self) -> Range {
                 match self {
                     $(Parameter::$follow => $follow_range,)+
+                    Parameter::Weight(_) => Range::ANY,
                     $(Parameter::$change => $change_range,)+
                     $(Parameter::$other => $other_range,)+
                 }
@@ -95,6 +107,10 @@ macro_rules! parameters {
                         #[allow(unreachable_patterns, reason = "some numbers are in all models")]
                         _ => return None,
                     },)+
+                    Parameter::Weight(name) => match (name, &mut style.change) {
+                        $((IncentiveName::$incentive, LaneChangeModel::Mcdm(it)) => &mut it.$incentive_key.weight,)+
+                        _ => return None,
+                    },
                     $(Parameter::$change => match &mut style.change {
                         LaneChangeModel::$changing(it) => &mut it.$($change_field).+,
                         _ => return None,
@@ -106,7 +122,7 @@ macro_rules! parameters {
     };
 }
 
-parameters! {
+with_incentives! { parameters! {
     follow {
         Acceleration "follow.acceleration" range(0.1, 10.0, "m/s²"), [Idm Acc Krauss Gipps] acceleration;
         Deceleration "follow.deceleration" range(0.1, 10.0, "m/s²"), [Idm Acc Krauss Gipps] deceleration;
@@ -128,15 +144,9 @@ parameters! {
     change {
         Theta "change.theta" Range::ANY, Mcdm theta;
         Sigma "change.sigma" range(0.0, f64::INFINITY, ""), Mcdm sigma;
-        SpeedWeight "change.speed.weight" Range::ANY, Mcdm speed.weight;
-        RouteWeight "change.route.weight" Range::ANY, Mcdm route.weight;
         RoutePenalty "change.route.penalty" range(0.0, 1e6, "s"), Mcdm route.penalty;
         RouteReference "change.route.reference" range(1.0, 1e6, "s"), Mcdm route.reference;
-        ComfortWeight "change.comfort.weight" Range::ANY, Mcdm comfort.weight;
         ComfortBeta "change.comfort.beta" range(0.0, 20.0, ""), Mcdm comfort.beta;
-        CourtesyWeight "change.courtesy.weight" Range::ANY, Mcdm courtesy.weight;
-        UrgencyWeight "change.urgency.weight" Range::ANY, Mcdm urgency.weight;
-        KeepingWeight "change.keeping.weight" Range::ANY, Mcdm keeping.weight;
         KeepingStay "change.keeping.stay" range(0.1, 600.0, "s"), Mcdm keeping.stay;
         ReturningAlpha "change.returning.alpha" range(0.0, 100.0, "1/(s m)"), Mcdm returning.alpha;
         NeededGap "change.returning.needed_gap" range(0.0, 60.0, "s"), Mcdm returning.needed_gap;
@@ -188,11 +198,24 @@ parameters! {
         TurnTime "guidance.turn_s" range(0.0, 3600.0, "s"), guidance.turn_s;
         LightTime "guidance.light_s" range(0.0, 3600.0, "s"), guidance.light_s;
     }
-}
+} }
 
 impl Parameter {
     /// The number with this key in a style file.
     pub fn of_key(key: &str) -> Option<Parameter> {
         Parameter::ALL.iter().copied().find(|it| it.key() == key)
+    }
+}
+
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.key())
+    }
+}
+
+impl<'de> Deserialize<'de> for Parameter {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Parameter, D::Error> {
+        let key = String::deserialize(deserializer)?;
+        Parameter::of_key(&key).ok_or_else(|| Error::custom(format!("unknown number of a style: \"{key}\"")))
     }
 }

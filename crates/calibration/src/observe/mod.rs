@@ -21,7 +21,7 @@ pub use changes::{ObservedChange, Unused};
 pub use desired::{DesiredSpeed, NODES};
 pub use known::{FreeTime, Known};
 pub use place::Place;
-pub use side::{ByDesired, SideSeen, gap_terms};
+pub use side::{ByDesired, PLAIN, SideSeen, gap_terms};
 use spells::{End, SpellTimes};
 
 /// How a recording is observed.

@@ -1,8 +1,7 @@
 //! What a driver sees of one side at one time, as the numbers that models of lane changes use.
 
 use laneweave_models::change::{
-    Comfort, Courtesy, Driver, Incentive, Keeping, Lmrs, Mcdm, Mobil, Route, Situation, Speed, Traffic,
-    Urgency,
+    Driver, INCENTIVES, Incentive, IncentiveName, Lmrs, Mcdm, Mobil, Situation, Traffic,
 };
 
 use laneweave_models::Style;
@@ -42,30 +41,29 @@ pub struct ByDesired {
     /// Yield of speed and, as much as the style has it, of the route: between lanes that lead to the same place the two
     /// are one.
     pub speed: f32,
-    /// Yield of the slow side.
-    pub keeping: f32,
+    /// Yields of the [`PLAIN`] incentives.
+    pub plain: [f32; PLAIN.len()],
     /// MOBIL: the gain above its threshold [m/s²].
     pub mobil: f32,
     /// LMRS: the desire above its threshold.
     pub lmrs: f32,
 }
 
+/// The incentives whose yields are terms of a fit as they are. Of the others the route is one with speed, comfort has a β,
+/// the yield of courtesy hardly depends on the desired speed, and urgency is not fitted.
+pub const PLAIN: [IncentiveName; INCENTIVES - 5] = {
+    use IncentiveName::{Comfort, Courtesy, Route, Speed, Urgency};
+    IncentiveName::all_but(&[Speed, Route, Comfort, Courtesy, Urgency])
+};
+
 /// Without a vehicle ahead or behind a gap counts as this long [m].
 const LONGEST_GAP: f64 = 150.0;
 /// Largest gain of MOBIL that counts [m/s²]: nobody brakes or accelerates more.
 const LARGEST_GAIN: f64 = 8.0;
 
-/// `model` with all weights 1, so that all its yields are computed.
+/// `model` with all weights 1 but that of urgency, so that the yields that a fit needs are computed.
 pub(super) fn unit_weights(model: &Mcdm) -> Mcdm {
-    Mcdm {
-        speed: Speed { weight: 1.0, ..model.speed },
-        route: Route { weight: 1.0, ..model.route },
-        comfort: Comfort { weight: 1.0, ..model.comfort },
-        courtesy: Courtesy { weight: 1.0, ..model.courtesy },
-        urgency: Urgency { weight: 0.0 },
-        keeping: Keeping { weight: 1.0, ..model.keeping },
-        ..model.clone()
-    }
+    model.clone().with_weights(|it| if it == IncentiveName::Urgency { 0.0 } else { 1.0 })
 }
 
 impl SideSeen {
@@ -116,14 +114,15 @@ impl ByDesired {
     /// By `model`, whose weights are 1; the route counts `route` times as much as speed.
     pub(super) fn of(situation: &Situation, model: &Mcdm, route: f64) -> ByDesired {
         let appraisal = model.appraise(situation);
+        let earning = |it: IncentiveName| appraisal.row(it).earning;
         let mobil = Mobil { traffic: Traffic::Law, ..Mobil::default() };
         let by_mobil = mobil.appraise(situation);
-        let [own, _, _, others, ..] = by_mobil.rows;
+        let [own, others] = [IncentiveName::Speed, IncentiveName::Courtesy].map(|it| by_mobil.row(it));
         let gain = own.earning + mobil.politeness * others.earning - by_mobil.theta;
         let lmrs = Lmrs::default().appraise(situation);
         ByDesired {
-            speed: (appraisal.rows[0].earning + route * appraisal.rows[1].earning) as f32,
-            keeping: appraisal.rows[5].earning as f32,
+            speed: (earning(IncentiveName::Speed) + route * earning(IncentiveName::Route)) as f32,
+            plain: PLAIN.map(|it| earning(it) as f32),
             mobil: gain.clamp(-LARGEST_GAIN, LARGEST_GAIN) as f32,
             lmrs: (lmrs.gain - lmrs.theta) as f32,
         }

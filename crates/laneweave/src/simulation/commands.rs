@@ -110,8 +110,8 @@ impl Simulation {
         self.command(&format!("close_lanelet of lanelet {lanelet}"), command).map(|_| ())
     }
 
-    /// Changes a number of a style, such as [`Parameter::CourtesyWeight`]: for all of its drivers on the road, and for
-    /// those who enter later. A number that is distributed becomes the same for all of them.
+    /// Changes a number of a style, such as the [weight](Parameter::Weight) of courtesy: for all of its drivers on the
+    /// road, and for those who enter later. A number that is distributed becomes the same for all of them.
     ///
     /// # Errors
     /// If no driver of the scenario has this style, if it has no such number, if the value is not in its range, or if

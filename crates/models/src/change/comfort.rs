@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::headway::Flow;
 use super::situation::Situation;
-use super::{Chances, Incentive, Outcomes};
+use super::{Chances, GainBound, Incentive, Outcomes};
 use crate::Reading;
 use crate::exponential::exp;
 
@@ -44,10 +44,6 @@ impl Comfort {
 }
 
 impl Incentive for Comfort {
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
         let away = self.of(&situation.there.flow);
         let back = if situation.is_bound() { away + self.of(&situation.here.flow) } else { away };
@@ -56,5 +52,11 @@ impl Incentive for Comfort {
 
     fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
         1.0
+    }
+
+    /// A longer look adds the discomfort.
+    #[inline]
+    fn most(&self, _bound: &GainBound) -> Option<f64> {
+        (self.weight > 0.0).then_some(0.0)
     }
 }

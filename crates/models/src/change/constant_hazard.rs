@@ -7,7 +7,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::Situation;
-use super::mcdm::{Appraisal, INCENTIVES, Row};
+use super::incentives::INCENTIVES;
+use super::mcdm::{Appraisal, Row};
 
 /// A driver who changes lanes without a reason.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -15,7 +15,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::situation::{Behind, Driver, LaneView, Situation};
-use super::{Chances, Incentive, Outcomes};
+use super::{Chances, GainBound, Incentive, Outcomes};
 use crate::Reading;
 use crate::follow::{Ahead, CarFollowing, speed_after};
 
@@ -89,10 +89,6 @@ impl Courtesy {
 }
 
 impl Incentive for Courtesy {
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
         let gain = self.gain(situation);
         Outcomes { keep: 0.0, back: gain, away: gain }
@@ -101,5 +97,10 @@ impl Incentive for Courtesy {
     /// A is already a yield.
     fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
         1.0
+    }
+
+    #[inline]
+    fn most(&self, bound: &GainBound) -> Option<f64> {
+        Some(bound.courtesy)
     }
 }

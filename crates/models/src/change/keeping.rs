@@ -10,7 +10,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::situation::{LaneView, Situation, Toward};
-use super::{Chances, Incentive, Outcomes};
+use super::{Chances, GainBound, Incentive, Outcomes};
 use crate::follow::Ahead;
 
 /// Keeping incentive.
@@ -55,10 +55,6 @@ impl Keeping {
 }
 
 impl Incentive for Keeping {
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
         let wish = |lane: &LaneView| {
             let remaining = if lane.route.changes == 0 { f64::INFINITY } else { lane.route.remaining };
@@ -74,5 +70,10 @@ impl Incentive for Keeping {
 
     fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
         1.0
+    }
+
+    #[inline]
+    fn most(&self, bound: &GainBound) -> Option<f64> {
+        Some(bound.slow_side)
     }
 }

@@ -17,7 +17,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::{Appraisal, Row, by_threshold, padded};
+use super::incentives::{IncentiveName, in_rows};
+use super::mcdm::{Appraisal, Row, by_threshold};
 use super::route_keeping::RouteKeeping;
 use super::situation::{Situation, Toward};
 use crate::follow::CarFollowing;
@@ -90,7 +91,7 @@ impl Lmrs {
 
     /// Whether only d_b, the bias to the slow side, makes the driver of this `appraisal` want the change.
     pub(super) fn is_for_the_slow_side(&self, toward: Toward, appraisal: &Appraisal) -> bool {
-        let bias = appraisal.rows[2];
+        let bias = appraisal.row(IncentiveName::Comfort);
         toward == Toward::Nearside && appraisal.gain - bias.weight * bias.earning < self.free
     }
 
@@ -121,12 +122,10 @@ impl Lmrs {
         let bias = self.bias_desire(*toward, speed);
         let route = self.route_desire(situation);
         let weight = self.voluntary_weight(route, speed + bias);
-        let rows = padded([
-            Row { earning: speed, weight },
-            Row::default(),
-            Row { earning: bias, weight },
-            Row::default(),
-            Row { earning: route, weight: 1.0 },
+        let rows = in_rows([
+            (IncentiveName::Speed, Row { earning: speed, weight }),
+            (IncentiveName::Comfort, Row { earning: bias, weight }),
+            (IncentiveName::Urgency, Row { earning: route, weight: 1.0 }),
         ]);
         let gain = rows.iter().map(|it| it.weight * it.earning).sum();
         Appraisal { rows, gain, theta: self.free }

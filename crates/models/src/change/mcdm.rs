@@ -6,41 +6,61 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::incentives::{INCENTIVES, IncentiveName, in_rows, with_incentives};
 use super::returning::Returning;
-use super::route::RouteReading;
 use super::situation::{CONGESTED, LaneView, Toward, may_not_pass};
 use super::{Chances, Comfort, Courtesy, GainBound, Incentive, Keeping, Route, Situation, Speed, Urgency};
-use crate::Reading;
 use crate::exponential::exp;
 use crate::follow::Ahead;
 
-/// Multi-criteria decision-making.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Mcdm {
-    /// How desire follows from G.
-    pub rule: Rule,
-    /// θ.
-    pub theta: f64,
-    /// σ: choice noise of the stochastic rule; 0: none.
-    pub sigma: f64,
-    /// How the yields are combined.
-    pub combination: Combination,
-    /// Speed incentive.
-    pub speed: Speed,
-    /// Route incentive.
-    pub route: Route,
-    /// Comfort incentive.
-    pub comfort: Comfort,
-    /// Courtesy incentive.
-    pub courtesy: Courtesy,
-    /// Urgency, ours.
-    pub urgency: Urgency,
-    /// Keeping to the slow side, ours.
-    pub keeping: Keeping,
-    /// The chance of coming back.
-    pub returning: Returning,
+/// Makes [`Mcdm`], and what it has of each incentive.
+macro_rules! mcdm {
+    (incentives { $($(#[$about:meta])* $key:ident $incentive:ident;)+ }) => {
+        /// Multi-criteria decision-making.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct Mcdm {
+            /// How desire follows from G.
+            pub rule: Rule,
+            /// θ.
+            pub theta: f64,
+            /// σ: choice noise of the stochastic rule; 0: none.
+            pub sigma: f64,
+            /// How the yields are combined.
+            pub combination: Combination,
+            $($(#[$about])* pub $key: $incentive,)+
+            /// The chance of coming back.
+            pub returning: Returning,
+        }
+
+        impl Mcdm {
+            /// The weight of an incentive.
+            pub fn weight(&self, of: IncentiveName) -> f64 {
+                match of {
+                    $(IncentiveName::$incentive => self.$key.weight,)+
+                }
+            }
+
+            /// The same model with the weights `of` the incentives.
+            pub fn with_weights(mut self, of: impl Fn(IncentiveName) -> f64) -> Mcdm {
+                $(self.$key.weight = of(IncentiveName::$incentive);)+
+                self
+            }
+
+            fn rows(&self, situation: &Situation, chances: Chances) -> [Row; INCENTIVES] {
+                [$(Row::of(self.$key.weight, || self.$key.earning(situation, chances))),+]
+            }
+
+            /// The rows with which G is largest on a side with the gain bound `bound`; `None` where there is no bound.
+            #[inline]
+            fn rows_at_most(&self, bound: &GainBound) -> Option<[Row; INCENTIVES]> {
+                Some([$(Row::at_most(self.$key.weight, || self.$key.most(bound))?),+])
+            }
+        }
+    };
 }
+
+with_incentives! { mcdm! {} }
 
 /// How desire follows from G.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,16 +85,6 @@ pub enum Combination {
     Exponential,
 }
 
-/// How many incentives there are.
-pub const INCENTIVES: usize = 6;
-
-/// The rows of a model that has fewer of them than there are incentives: the last ones are empty.
-pub(super) fn padded<T: Copy + Default, const N: usize>(rows: [T; N]) -> [T; INCENTIVES] {
-    let mut all = [T::default(); INCENTIVES];
-    all[..N].copy_from_slice(&rows);
-    all
-}
-
 /// One row of the table, evaluated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -84,10 +94,24 @@ pub struct Row {
     pub weight: f64,
 }
 
+impl Row {
+    /// A criterion without weight in the style is not computed.
+    #[inline]
+    fn of(weight: f64, earning: impl FnOnce() -> f64) -> Row {
+        Row { earning: if weight == 0.0 { 0.0 } else { earning() }, weight }
+    }
+
+    /// The same of an earning that may be unknown.
+    #[inline]
+    fn at_most(weight: f64, earning: impl FnOnce() -> Option<f64>) -> Option<Row> {
+        Some(Row { earning: if weight == 0.0 { 0.0 } else { earning()? }, weight })
+    }
+}
+
 /// A driver's appraisal of one side.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Appraisal {
-    /// The rows in the order of [`Mcdm::NAMES`].
+    /// The rows in the order of [`IncentiveName::ALL`].
     pub rows: [Row; INCENTIVES],
     /// G.
     pub gain: f64,
@@ -96,6 +120,12 @@ pub struct Appraisal {
 }
 
 impl Appraisal {
+    /// The row of an incentive.
+    #[inline]
+    pub fn row(&self, of: IncentiveName) -> Row {
+        self.rows[of as usize]
+    }
+
     /// The index of the row with the largest μY, which speaks most for the change, if any is above 0; of equal ones
     /// the first.
     pub fn leading(&self) -> Option<usize> {
@@ -105,26 +135,6 @@ impl Appraisal {
 }
 
 impl Mcdm {
-    /// The incentives, in the order of the rows.
-    pub const NAMES: [&str; INCENTIVES] = ["speed", "route", "comfort", "courtesy", "urgency", "keeping"];
-
-    fn rows(&self, situation: &Situation, chances: Chances) -> [Row; INCENTIVES] {
-        fn row(incentive: &impl Incentive, situation: &Situation, chances: Chances) -> Row {
-            let weight = incentive.weight();
-            // A criterion without weight in the style is not computed.
-            let earning = if weight == 0.0 { 0.0 } else { incentive.earning(situation, chances) };
-            Row { earning, weight }
-        }
-        [
-            row(&self.speed, situation, chances),
-            row(&self.route, situation, chances),
-            row(&self.comfort, situation, chances),
-            row(&self.courtesy, situation, chances),
-            row(&self.urgency, situation, chances),
-            row(&self.keeping, situation, chances),
-        ]
-    }
-
     /// The driver's appraisal of the side in `situation`.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let seen = self.keeping_there(situation);
@@ -135,8 +145,10 @@ impl Mcdm {
 
     /// Whether only the wish for the slow side makes the driver of this `appraisal` want the change.
     pub(super) fn is_for_the_slow_side(&self, appraisal: &Appraisal) -> bool {
-        let [others @ .., keeping] = &appraisal.rows;
-        keeping.weight * keeping.earning > 0.0 && self.combine(others) <= self.theta
+        let keeping = appraisal.row(IncentiveName::Keeping);
+        let mut others = appraisal.rows;
+        others[IncentiveName::Keeping as usize] = Row::default();
+        keeping.weight * keeping.earning > 0.0 && self.combine(&others) <= self.theta
     }
 
     /// The driver's appraisal of leaving a route of `on_route` [s] for one of `alternative` [s] with the indifference
@@ -144,10 +156,7 @@ impl Mcdm {
     pub fn appraise_leaving(&self, on_route: f64, alternative: f64, band: f64) -> Option<Appraisal> {
         let Route { weight, .. } = self.route;
         let earning = self.route.leaving(on_route, alternative, band).filter(|_| weight != 0.0)?;
-        let rows = Mcdm::NAMES.map(|name| match name {
-            "route" => Row { earning, weight },
-            _ => Row::default(),
-        });
+        let rows = in_rows([(IncentiveName::Route, Row { earning, weight })]);
         Some(Appraisal { rows, gain: self.combine(&rows), theta: self.theta })
     }
 
@@ -204,37 +213,7 @@ impl Mcdm {
     /// An upper bound of G on a side with the gain bound `bound`; infinite where there is no bound.
     #[inline]
     pub fn gain_at_most(&self, bound: &GainBound) -> f64 {
-        // All fields are named, so that no incentive is forgotten here. Urgency does not count between such lanes.
-        let Mcdm {
-            speed,
-            route,
-            comfort,
-            courtesy,
-            urgency: _,
-            keeping,
-            rule: _,
-            theta: _,
-            sigma: _,
-            combination: _,
-            returning: _,
-        } = self;
-        let is_literal = speed.reading == Reading::Literal || route.reading == RouteReading::Literal;
-        if is_literal || speed.weight.min(route.weight).min(comfort.weight) < 0.0 {
-            return f64::INFINITY;
-        }
-        let GainBound { desired, anticipated_speeds, routes, section, band, courtesy: for_others, slow_side } =
-            bound;
-        let [here, there] = *anticipated_speeds;
-        // A longer look would add the discomfort.
-        self.combine(&[
-            Row { earning: Speed::between(here, there, *desired), weight: speed.weight },
-            Row {
-                earning: route.between(routes, *anticipated_speeds, *section, *band),
-                weight: route.weight,
-            },
-            Row { earning: *for_others, weight: courtesy.weight },
-            Row { earning: *slow_side, weight: keeping.weight },
-        ])
+        self.rows_at_most(bound).map_or(f64::INFINITY, |rows| self.combine(&rows))
     }
 
     /// A gain below which the desire certainly does not come, if both sides have less: within `epochs` epochs, for

@@ -17,7 +17,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::{Appraisal, Row, by_threshold, padded};
+use super::incentives::{IncentiveName, in_rows};
+use super::mcdm::{Appraisal, Row, by_threshold};
 use super::route_keeping::RouteKeeping;
 use super::situation::{Driver, LaneView, Situation, Toward, may_not_pass};
 use crate::braking::HARDEST_BRAKING;
@@ -197,12 +198,11 @@ impl Mobil {
         let [route, urgency] = self.route.rows(situation, DECISIVE, self.urgency);
         // The stronger the urgency, the less the accelerations of the moment count: the driver waits for a gap.
         let free = 1.0 - urgency.earning.abs();
-        let rows = padded([
-            Row { earning: own, weight: free },
-            route,
-            Row::default(),
-            Row { earning: others, weight: free * self.politeness },
-            urgency,
+        let rows = in_rows([
+            (IncentiveName::Speed, Row { earning: own, weight: free }),
+            (IncentiveName::Route, route),
+            (IncentiveName::Courtesy, Row { earning: others, weight: free * self.politeness }),
+            (IncentiveName::Urgency, urgency),
         ]);
         let helps_the_route = RouteKeeping::changes_saved(situation) > 0.0;
         let [_, new_follower] = accelerations.new_follower;

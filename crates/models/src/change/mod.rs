@@ -1,11 +1,12 @@
-//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], each row is a file. The models for comparison
-//! stand beside it.
+//! Changing lanes: the paper's Table I. Its columns are [`Outcomes`], each row is a file, and a line in the list of
+//! `incentives.rs`. The models for comparison stand beside it.
 
 mod comfort;
 mod constant_hazard;
 mod courtesy;
 mod gain_bound;
 mod headway;
+mod incentives;
 mod keeping;
 mod link_time;
 mod lmrs;
@@ -25,10 +26,12 @@ pub use constant_hazard::ConstantHazard;
 pub use courtesy::Courtesy;
 pub use gain_bound::GainBound;
 pub use headway::Flow;
+pub(crate) use incentives::with_incentives;
+pub use incentives::{INCENTIVES, IncentiveName};
 pub use keeping::Keeping;
 pub use link_time::{bpr, link_time};
 pub use lmrs::Lmrs;
-pub use mcdm::{Appraisal, Combination, INCENTIVES, Mcdm, Row, Rule, at_least_once_in};
+pub use mcdm::{Appraisal, Combination, Mcdm, Row, Rule, at_least_once_in};
 pub use mobil::{Accelerations, Mobil, Traffic};
 pub use model::{Flaw, LaneChangeModel};
 pub use returning::Returning;
@@ -61,9 +64,6 @@ pub struct Chances {
 
 /// One row of the table. Its yield is derived, so that an explanation can show the row.
 pub trait Incentive {
-    /// μ: its weight.
-    fn weight(&self) -> f64;
-
     /// The three cases of `situation`.
     fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes;
 
@@ -75,5 +75,11 @@ pub trait Incentive {
         let outcomes = self.outcomes(situation, chances);
         let Outcomes { keep, back, away } = outcomes;
         (chances.there * back + (1.0 - chances.there) * away - keep) / self.scale(situation, &outcomes)
+    }
+
+    /// The yield with which it speaks most for a side with the gain bound `bound`, given that it has a weight. `None`
+    /// if it is not known: then drivers always look on, which costs time but is never wrong.
+    fn most(&self, _bound: &GainBound) -> Option<f64> {
+        None
     }
 }

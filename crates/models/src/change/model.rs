@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mcdm::{Appraisal, INCENTIVES, Mcdm, Row, Rule, at_least_once_in, padded};
+use super::incentives::{INCENTIVES, IncentiveName, in_rows};
+use super::mcdm::{Appraisal, Mcdm, Row, Rule, at_least_once_in};
 use super::situation::{CONGESTED, Situation, may_not_pass};
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
@@ -58,10 +59,16 @@ impl LaneChangeModel {
 
     /// The names of the rows of its appraisals, in their order; a row without a name is not used.
     pub fn row_names(&self) -> [&'static str; INCENTIVES] {
+        use IncentiveName::{Comfort, Courtesy, Route, Speed, Urgency};
         match self {
-            LaneChangeModel::Mcdm(_) => Mcdm::NAMES,
-            LaneChangeModel::Mobil(_) => padded(["own gain", "route", "", "others' gain", "urgency"]),
-            LaneChangeModel::Lmrs(_) => padded(["speed", "", "bias", "", "route"]),
+            LaneChangeModel::Mcdm(_) => IncentiveName::ALL.map(IncentiveName::name),
+            LaneChangeModel::Mobil(_) => in_rows([
+                (Speed, "own gain"),
+                (Route, "route"),
+                (Courtesy, "others' gain"),
+                (Urgency, "urgency"),
+            ]),
+            LaneChangeModel::Lmrs(_) => in_rows([(Speed, "speed"), (Comfort, "bias"), (Urgency, "route")]),
             LaneChangeModel::ConstantHazard(_) => [""; INCENTIVES],
         }
     }

@@ -19,7 +19,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::situation::{LaneView, RouteView, Situation};
-use super::{Chances, Incentive, Outcomes};
+use super::{Chances, GainBound, Incentive, Outcomes};
 use crate::Reading;
 use crate::follow::CarFollowing;
 
@@ -131,10 +131,6 @@ fn better(on_route: f64, alternative: f64, band: f64) -> f64 {
 }
 
 impl Incentive for Route {
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-
     fn outcomes(&self, situation: &Situation, chances: Chances) -> Outcomes {
         let Situation { me, here, there, section, band, .. } = situation;
         let is_symmetric = situation.is_symmetric();
@@ -175,5 +171,13 @@ impl Incentive for Route {
             RouteReading::Literal => earning,
             RouteReading::Repaired | RouteReading::Separate => earning.clamp(-LARGEST_YIELD, LARGEST_YIELD),
         }
+    }
+
+    /// A longer look finds no higher speed there.
+    #[inline]
+    fn most(&self, bound: &GainBound) -> Option<f64> {
+        let GainBound { routes, anticipated_speeds, section, band, .. } = bound;
+        (self.reading != RouteReading::Literal && self.weight > 0.0)
+            .then(|| self.between(routes, *anticipated_speeds, *section, *band))
     }
 }

@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::situation::{LaneView, SIGHT, Situation};
-use super::{Chances, Incentive, Outcomes};
+use super::{Chances, GainBound, Incentive, Outcomes};
 use crate::Reading;
 use crate::follow::{Ahead, CarFollowing};
 
@@ -55,10 +55,6 @@ impl Speed {
 }
 
 impl Incentive for Speed {
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
         let me = &situation.me;
         let speed = |lane: &LaneView| match self.reading {
@@ -74,5 +70,13 @@ impl Incentive for Speed {
             Reading::Literal => outcomes.keep.max(LITERAL_FLOOR),
             Reading::Repaired => situation.me.pace.desired,
         }
+    }
+
+    /// A longer look finds no higher speed there.
+    #[inline]
+    fn most(&self, bound: &GainBound) -> Option<f64> {
+        let [here, there] = bound.anticipated_speeds;
+        (self.reading == Reading::Repaired && self.weight > 0.0)
+            .then(|| Speed::between(here, there, bound.desired))
     }
 }

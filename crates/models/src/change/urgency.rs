@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::situation::{LaneView, SIGHT, Situation};
-use super::{Chances, Incentive, Outcomes};
+use super::{Chances, GainBound, Incentive, Outcomes};
 
 /// Urgency incentive: the urgency that a change takes away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -32,10 +32,6 @@ pub fn urgency(changes: u32, remaining: f64, speed: f64) -> f64 {
 }
 
 impl Incentive for Urgency {
-    fn weight(&self) -> f64 {
-        self.weight
-    }
-
     fn outcomes(&self, situation: &Situation, _chances: Chances) -> Outcomes {
         let of =
             |lane: &LaneView| -urgency(lane.route.changes, lane.route.remaining, situation.me.pace.speed);
@@ -45,5 +41,11 @@ impl Incentive for Urgency {
 
     fn scale(&self, _situation: &Situation, _outcomes: &Outcomes) -> f64 {
         1.0
+    }
+
+    /// It does not count between such lanes.
+    #[inline]
+    fn most(&self, _bound: &GainBound) -> Option<f64> {
+        Some(0.0)
     }
 }

@@ -4,8 +4,8 @@
 use crate::near::assert_near;
 use crate::situations::{ON_ROUTE, behind, driver, empty_road};
 use laneweave_models::change::{
-    Accelerations, Appraisal, LaneChangeModel, LaneView, Mobil, RouteKeeping, RouteView, Situation, Toward,
-    Traffic,
+    Accelerations, Appraisal, IncentiveName, LaneChangeModel, LaneView, Mobil, RouteKeeping, RouteView,
+    Situation, Toward, Traffic,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Idm, Pace};
 use proptest::prelude::*;
@@ -81,8 +81,9 @@ fn v44_in_european_traffic_only_the_follower_on_the_fast_lane_counts() {
 #[test]
 fn v44_above_60_kmh_nobody_gains_by_passing_on_the_slow_side() {
     let slower = |speed| Some(Ahead::steady(40.0, speed));
-    let gain =
-        |model: Mobil, toward, here, there| model.appraise(&between(toward, here, there)).rows[0].earning;
+    let gain = |model: Mobil, toward, here, there| {
+        model.appraise(&between(toward, here, there)).row(IncentiveName::Speed).earning
+    };
     // Back to the slow lane, past a slower leader on the fast one.
     assert_eq!(gain(european(), Toward::Nearside, slower(25.0), None), 0.0);
     assert!(gain(european(), Toward::Nearside, slower(16.0), None) > 1.0, "congested");

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use laneweave_models::change::INCENTIVES;
+use laneweave_models::change::IncentiveName;
 use laneweave_network::{Point, Position};
 use laneweave_scenario::Fault;
 use laneweave_sim::{Event, LaneChange, World};
@@ -40,16 +40,6 @@ const AFTER: [Column; 7] = [
     Column::real("ttc_ahead_s"),
     Column::real("ttc_behind_s"),
     Column::text("outcome"),
-];
-
-/// The columns of one incentive.
-const OF_INCENTIVE: [[&str; 2]; INCENTIVES] = [
-    ["speed_yield", "speed_weight"],
-    ["route_yield", "route_weight"],
-    ["comfort_yield", "comfort_weight"],
-    ["courtesy_yield", "courtesy_weight"],
-    ["urgency_yield", "urgency_weight"],
-    ["keeping_yield", "keeping_weight"],
 ];
 
 /// Lane changes in a batch; those of one step more at most.
@@ -109,7 +99,7 @@ pub(super) struct LaneChangeTable {
 impl LaneChangeTable {
     /// Begins the table in `folder`.
     pub(super) fn create(folder: &super::folder::Folder) -> Result<LaneChangeTable, Fault> {
-        let incentives = OF_INCENTIVE.as_flattened().iter().map(|name| Column::real(name));
+        let incentives = IncentiveName::ALL.into_iter().flat_map(IncentiveName::columns).map(Column::real);
         let columns: Vec<Column> = BEFORE.into_iter().chain(incentives).chain(AFTER).collect();
         let (table, path) = folder.table("lane_changes", &columns)?;
         Ok(LaneChangeTable { table, path })
@@ -170,18 +160,4 @@ fn place(names: &Names, change: &LaneChange) -> Point {
 /// An infinite value, where there is no vehicle or no closing speed, is a missing one.
 fn known(value: f64) -> Cell<'static> {
     if value.is_finite() { value.into() } else { Cell::Missing }
-}
-
-#[cfg(test)]
-mod tests {
-    use laneweave_models::change::Mcdm;
-
-    use super::*;
-
-    #[test]
-    fn every_incentive_has_its_two_columns() {
-        for (name, columns) in Mcdm::NAMES.iter().zip(OF_INCENTIVE) {
-            assert_eq!(columns, [format!("{name}_yield"), format!("{name}_weight")]);
-        }
-    }
 }

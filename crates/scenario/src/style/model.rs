@@ -3,10 +3,7 @@
 
 use std::path::Path;
 
-use laneweave_models::change::{
-    Comfort, ConstantHazard, Courtesy, Keeping, LaneChangeModel, Lmrs, Mcdm, Mobil, Route, RouteKeeping,
-    Speed, Traffic, Urgency,
-};
+use laneweave_models::change::{ConstantHazard, LaneChangeModel, Lmrs, Mcdm, Mobil, RouteKeeping, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -98,10 +95,13 @@ impl Model {
                 LaneChangeModel::Mcdm(_) => return Ok(template),
                 _ => LaneChangeModel::Mcdm(usual()?),
             },
-            Model::Null => match &template.typical().change {
-                LaneChangeModel::Mcdm(model) => LaneChangeModel::Mcdm(without_weights(model.clone())),
-                _ => LaneChangeModel::Mcdm(without_weights(usual()?)),
-            },
+            Model::Null => {
+                let model = match &template.typical().change {
+                    LaneChangeModel::Mcdm(model) => model.clone(),
+                    _ => usual()?,
+                };
+                LaneChangeModel::Mcdm(model.with_weights(|_| 0.0))
+            }
             Model::Mobil => LaneChangeModel::Mobil(Mobil::default()),
             Model::MobilLaw => LaneChangeModel::Mobil(Mobil { traffic: Traffic::Law, ..Mobil::default() }),
             Model::MobilLanes => LaneChangeModel::Mobil(Mobil { route: lanes, ..Mobil::default() }),
@@ -123,14 +123,23 @@ fn usual() -> Result<Mcdm, Fault> {
     }
 }
 
-fn without_weights(model: Mcdm) -> Mcdm {
-    Mcdm {
-        speed: Speed { weight: 0.0, ..model.speed },
-        route: Route { weight: 0.0, ..model.route },
-        comfort: Comfort { weight: 0.0, ..model.comfort },
-        courtesy: Courtesy { weight: 0.0, ..model.courtesy },
-        urgency: Urgency { weight: 0.0 },
-        keeping: Keeping { weight: 0.0, ..model.keeping },
-        ..model
+#[cfg(test)]
+mod tests {
+    use laneweave_models::change::IncentiveName;
+
+    use super::*;
+    use crate::source::Source;
+
+    #[test]
+    fn the_null_control_has_no_reason_left_whichever_incentives_there_are() {
+        let weights = IncentiveName::ALL.map(|it| format!("{}.weight = 1.0\n", it.name())).concat();
+        let weighed = format!("name = \"x\"\n[change]\nmodel = \"mcdm\"\nsigma = 0.01\n{weights}");
+        let weighed =
+            StyleTemplate::parse(&Source { path: "x.toml".into(), text: weighed }).expect("a style");
+        let LaneChangeModel::Mcdm(model) = &weighed.typical().change else { panic!("mcdm") };
+        assert_eq!(IncentiveName::ALL.map(|it| model.weight(it)), IncentiveName::ALL.map(|_| 1.0));
+        let null = Model::Null.drives(weighed).expect("a control");
+        let LaneChangeModel::Mcdm(model) = &null.typical().change else { panic!("mcdm") };
+        assert_eq!(IncentiveName::ALL.map(|it| model.weight(it)), IncentiveName::ALL.map(|_| 0.0));
     }
 }

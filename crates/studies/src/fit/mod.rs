@@ -17,7 +17,7 @@ mod words;
 
 use std::path::{Path, PathBuf};
 
-use laneweave_calibration::observe::{Begin, Observations};
+use laneweave_calibration::observe::{Begin, Observations, PLAIN};
 use laneweave_calibration::{Asked, Classes, Folds, PriorWeights, Study, by_paper};
 use laneweave_models::change::{LaneChangeModel, Mcdm};
 use laneweave_models::{Reading, Style};
@@ -161,13 +161,14 @@ fn with_reading(model: &Mcdm, reading: Reading) -> Mcdm {
 impl Observed {
     /// The prior weights.
     fn weights(&self) -> PriorWeights {
-        let Mcdm { speed, route, comfort, courtesy, keeping, returning, .. } = &self.prior.mcdm;
+        let mcdm = &self.prior.mcdm;
+        let Mcdm { speed, route, comfort, courtesy, returning, .. } = mcdm;
         PriorWeights {
             speed: speed.weight,
             route: route.weight,
             comfort: comfort.weight,
             courtesy: courtesy.weight,
-            keeping: keeping.weight,
+            plain: PLAIN.map(|it| mcdm.weight(it)),
             beta: comfort.beta,
             alpha: returning.alpha,
         }

@@ -5,7 +5,7 @@ use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
 use super::judge;
 use super::prediction::HeldOut;
-use super::report::{FitReport, Spread};
+use super::report::{FitReport, Spread, by_paper_terms};
 use super::words::{correction, with_interval};
 
 /// The report of a fit to the recordings with these names, made by `command`.
@@ -122,7 +122,12 @@ fn by_lead(report: &FitReport) -> Table {
 }
 
 fn paper(report: &FitReport) -> Section {
-    let names = ["speed and route", "comfort", "courtesy", "slow side"];
+    let names = by_paper_terms().into_iter().map(|it| match it {
+        "speed" => "speed and route",
+        "keeping" => "slow side",
+        other => other,
+    });
+    let names: Vec<&str> = names.collect();
     let columns: Vec<(&str, Align)> = [
         ("group", Align::Words),
         ("vehicles", Align::Numbers),
@@ -130,7 +135,7 @@ fn paper(report: &FitReport) -> Section {
         ("β", Align::Numbers),
     ]
     .into_iter()
-    .chain(names.map(|it| (it, Align::Numbers)))
+    .chain(names.iter().map(|it| (*it, Align::Numbers)))
     .collect();
     let mut table = Table::new("Weights and standard errors by the paper's procedure.", &columns);
     for it in &report.by_paper {

@@ -74,7 +74,7 @@ impl Plan {
         let prior = observed.weights();
         let model = DesireModel::Mcdm { beta: prior.beta };
         let design = observations.design(&model);
-        let expected = expected(&design, model.terms(), &prior.terms(), used);
+        let expected = expected(&design, &model.terms(), &prior.terms(), used);
         let per_change = observations.veh_km / used.max(1) as f64;
         let expected: Vec<ExpectedWeight> = expected
             .into_iter()

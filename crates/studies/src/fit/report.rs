@@ -1,7 +1,7 @@
 //! What a fit found, as plain data.
 
 use laneweave_calibration::observe::Observations;
-use laneweave_calibration::{Fitted, PaperGroup, Study};
+use laneweave_calibration::{DesireModel, Fitted, PaperGroup, Study};
 use laneweave_scenario::Fault;
 use serde::Serialize;
 
@@ -128,9 +128,14 @@ pub struct ByPaper {
     pub changed: usize,
     /// β; none without a maximum.
     pub beta: Option<f64>,
-    /// Weights of speed with the route, comfort, courtesy and the slow side, with their standard errors; none without a
-    /// maximum.
+    /// Weights of the [terms](by_paper_terms), speed with the route, with their standard errors; none without a maximum.
     pub weights: Vec<[f64; 2]>,
+}
+
+/// The names of the terms of the paper's procedure.
+pub(super) fn by_paper_terms() -> Vec<&'static str> {
+    // β changes no name.
+    DesireModel::Mcdm { beta: 0.0 }.terms()
 }
 
 impl ByPaper {

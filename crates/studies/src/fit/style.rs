@@ -1,7 +1,10 @@
 //! Fitted styles as files that the simulator takes.
 
 use laneweave_calibration::Study;
+use laneweave_calibration::observe::PLAIN;
 use laneweave_calibration::waiting::Layout;
+use laneweave_models::Parameter;
+use laneweave_models::change::IncentiveName;
 use laneweave_scenario::Fault;
 use laneweave_study::middle_95;
 use toml::{Table, Value};
@@ -128,10 +131,10 @@ fn lognormal([log_mean, log_deviation]: [f64; 2], [min, max]: [f64; 2]) -> Value
 fn set_change(change: &mut Table, observed: &Observed, report: &FitReport, class: &ClassReport) {
     change.insert("rule".into(), Value::String("logit".into()));
     change.insert("sigma".into(), Value::Float(1.0));
-    for (path, value) in numbers(observed, class.theta, &class.weights) {
-        insert(change, path, value);
+    let beta = (Parameter::ComfortBeta, report.beta.estimate);
+    for (parameter, value) in numbers(observed, class.theta, &class.weights).into_iter().chain([beta]) {
+        insert(change, parameter.key().trim_start_matches("change."), value);
     }
-    insert(change, "comfort.beta", report.beta.estimate);
 }
 
 /// Puts a number at a path of keys, if its outer ones are there.
@@ -148,30 +151,26 @@ fn insert(table: &mut Table, path: &str, value: f64) {
     }
 }
 
-/// The fitted numbers of a lane-change model by their keys; `weights` are those of speed, comfort, courtesy and the
-/// slow side.
-fn numbers(observed: &Observed, theta: f64, weights: &[f64]) -> [(&'static str, f64); 7] {
+/// The fitted numbers of a lane-change model; `weights` are those of its terms.
+fn numbers(observed: &Observed, theta: f64, weights: &[f64]) -> Vec<(Parameter, f64)> {
+    use IncentiveName::{Comfort, Courtesy, Route, Speed, Urgency};
     let prior = observed.weights();
-    let [speed, comfort, courtesy, keeping] = [0, 1, 2, 3].map(|it| weights[it]);
+    let [speed, comfort, courtesy] = [0, 1, 2].map(|it| weights[it]);
     let route = if prior.speed > 0.0 { speed * prior.route / prior.speed } else { 0.0 };
     // A driver at the last place for a change wants it, whatever else it sees (model.md §9): more than the threshold, a
     // usual choice, and what the other incentives may say against it.
     let usual: f64 = prior.terms().iter().map(|it| it.abs()).sum();
     let scale: f64 = weights.iter().map(|it| it.abs()).sum::<f64>() / usual.max(f64::MIN_POSITIVE);
     let urgency = theta.max(0.0) + 3.0 + 0.7 * scale.max(1.0);
-    [
-        ("theta", theta),
-        ("speed.weight", speed),
-        ("route.weight", route),
-        ("comfort.weight", comfort),
-        ("courtesy.weight", courtesy),
-        ("keeping.weight", keeping),
-        ("urgency.weight", urgency),
-    ]
+    let known = [(Speed, speed), (Route, route), (Comfort, comfort), (Courtesy, courtesy)];
+    let plain = PLAIN.into_iter().zip(weights[3..].iter().copied());
+    let weights = known.into_iter().chain(plain).chain([(Urgency, urgency)]);
+    let weights = weights.map(|(name, weight)| (Parameter::Weight(name), weight));
+    [(Parameter::Theta, theta)].into_iter().chain(weights).collect()
 }
 
 /// The fitted numbers in each draw of the bootstrap, of class number `class`.
-fn draws(observed: &Observed, study: &Study, class: usize) -> Vec<[(&'static str, f64); 7]> {
+fn draws(observed: &Observed, study: &Study, class: usize) -> Vec<Vec<(Parameter, f64)>> {
     let layout: Layout = study.layout();
     let all = if study.mixture.is_some() { &study.class_draws[class] } else { &study.draws };
     let numbers_of = |it: &Vec<f64>| {
@@ -189,8 +188,8 @@ fn provenance(observed: &Observed, study: &Study, report: &FitReport, class: usi
     });
     let round = |value: f64| Value::Float((value * 1e6).round() / 1e6);
     let draws = draws(observed, study, class);
-    let of = numbers(observed, 0.0, &[0.0; 4]).map(|(key, _)| format!("change.{key}"));
-    let draw = |it: &[(&str, f64); 7]| Value::Array(it.iter().map(|it| round(it.1)).collect());
+    let of = numbers(observed, 0.0, &vec![0.0; study.weights.len()]);
+    let draw = |it: &Vec<(Parameter, f64)>| Value::Array(it.iter().map(|it| round(it.1)).collect());
     let strings = |names: &mut dyn Iterator<Item = &str>| {
         Value::Array(names.map(|it| Value::String(it.to_owned())).collect())
     };
@@ -202,14 +201,14 @@ fn provenance(observed: &Observed, study: &Study, report: &FitReport, class: usi
         ("lane_changes_used", Value::Integer(report.data.events_used as i64)),
         ("not_identified", strings(&mut report.data.not_identified.iter().copied())),
         ("intervals", Value::Table(intervals(study, report, &draws))),
-        ("draws_of", strings(&mut of.iter().map(String::as_str))),
+        ("draws_of", strings(&mut of.iter().map(|it| it.0.key()))),
         ("draws", Value::Array(draws.iter().map(draw).collect())),
     ];
     pairs.map(|(key, value)| (key.to_owned(), value)).into_iter().collect()
 }
 
 /// The 95 % intervals of the fitted numbers; those of several classes are known by their draws alone.
-fn intervals(study: &Study, report: &FitReport, draws: &[[(&'static str, f64); 7]]) -> Table {
+fn intervals(study: &Study, report: &FitReport, draws: &[Vec<(Parameter, f64)>]) -> Table {
     let pair = |[lower, upper]: [f64; 2]| Value::Array(vec![Value::Float(lower), Value::Float(upper)]);
     if study.mixture.is_none() {
         // As in the style, the threshold is that of a place of the mean rate.
@@ -223,8 +222,9 @@ fn intervals(study: &Study, report: &FitReport, draws: &[[(&'static str, f64); 7
         let all: Vec<f64> = draws.iter().map(|it| it[at].1).collect();
         pair(middle_95(&all).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]))
     };
-    let name = |key: &str| key.split('.').next().unwrap_or(key).to_owned();
-    first.iter().enumerate().map(|(at, (key, _))| (name(key), of(at))).collect()
+    // `theta` of `change.theta`, `speed` of `change.speed.weight`.
+    let name = |key: &str| key.split('.').nth(1).unwrap_or(key).to_owned();
+    first.iter().enumerate().map(|(at, (parameter, _))| (name(parameter.key()), of(at))).collect()
 }
 
 /// Comments at the begin of the file.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::correct::Correction;
 use super::prediction::HeldOut;
-use super::report::{ByPaper, FitReport, Spread, WeightReport};
+use super::report::{ByPaper, FitReport, Spread, WeightReport, by_paper_terms};
 
 /// The report in words.
 pub(super) fn text_of(report: &FitReport) -> String {
@@ -88,10 +88,9 @@ fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {
 }
 
 fn write_by_paper(it: &ByPaper, out: &mut String) -> std::fmt::Result {
-    let names = ["speed", "comfort", "courtesy", "keeping"];
-    let each =
-        names.iter().zip(&it.weights).map(|(name, [value, error])| format!("{name} {value:.2} ± {error:.2}"));
-    let weights: Vec<String> = each.collect();
+    let each = by_paper_terms().into_iter().zip(&it.weights);
+    let weights: Vec<String> =
+        each.map(|(name, [value, error])| format!("{name} {value:.2} ± {error:.2}")).collect();
     let found = match it.beta {
         None => "the weights have no maximum".to_owned(),
         Some(beta) => format!("{}, β {beta}", weights.join(", ")),

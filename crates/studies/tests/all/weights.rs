@@ -4,7 +4,7 @@
 
 use laneweave::maps::generate::large_town;
 use laneweave::network::DrivingSide;
-use laneweave::{Event, LaneChange, LaneChangeKind, Parameter, Simulation};
+use laneweave::{Event, IncentiveName, LaneChange, LaneChangeKind, Parameter, Simulation};
 use laneweave_studies::in_parallel;
 
 const SEEDS: u64 = 5;
@@ -85,35 +85,36 @@ fn all_fall(parameter: Parameter, counts: impl Fn(&LaneChange) -> bool + Sync) {
 
 #[test]
 fn drivers_who_want_speed_change_more_often() {
-    all_rise(Parameter::SpeedWeight, |_| true);
+    all_rise(Parameter::Weight(IncentiveName::Speed), |_| true);
 }
 
 /// Those who do not mind it leave the lanes of their route, and have to come back.
 #[test]
 fn drivers_who_mind_their_route_make_fewer_changes_for_it() {
-    all_fall(Parameter::RouteWeight, |it| it.kind == LaneChangeKind::Route);
+    all_fall(Parameter::Weight(IncentiveName::Route), |it| it.kind == LaneChangeKind::Route);
 }
 
 #[test]
 fn drivers_who_want_comfort_make_fewer_changes_that_nobody_needs() {
-    all_fall(Parameter::ComfortWeight, |it| it.kind == LaneChangeKind::Discretionary);
+    all_fall(Parameter::Weight(IncentiveName::Comfort), |it| it.kind == LaneChangeKind::Discretionary);
 }
 
 /// Changes that only the law wants gain nothing for the driver, and hold up those who are on the slow side. All changes
 /// together may even rise: the courteous make way.
 #[test]
 fn courteous_drivers_make_fewer_changes_for_the_slow_side_alone() {
-    all_fall(Parameter::CourtesyWeight, |it| it.kind == LaneChangeKind::Keeping);
+    all_fall(Parameter::Weight(IncentiveName::Courtesy), |it| it.kind == LaneChangeKind::Keeping);
 }
 
 #[test]
 fn drivers_who_keep_to_the_slow_side_make_more_changes_for_that_alone() {
-    all_rise(Parameter::KeepingWeight, |it| it.kind == LaneChangeKind::Keeping);
+    all_rise(Parameter::Weight(IncentiveName::Keeping), |it| it.kind == LaneChangeKind::Keeping);
 }
 
 /// Those who feel no urgency leave the lane of their route as they come near its last place, and have to come back.
 #[test]
 fn drivers_who_feel_urgency_make_fewer_changes_for_their_route_in_a_town() {
-    let pairs = pairs(Road::Town, Parameter::UrgencyWeight, |it| it.kind == LaneChangeKind::Route);
+    let pairs =
+        pairs(Road::Town, Parameter::Weight(IncentiveName::Urgency), |it| it.kind == LaneChangeKind::Route);
     assert!(pairs.iter().all(|[none, ten]| *ten < 0.7 * none), "{pairs:?}");
 }

@@ -6,7 +6,7 @@ mod twin;
 
 use laneweave::explain::{Flip, Knob, flips};
 use laneweave::models::Style;
-use laneweave::models::change::LaneChangeModel;
+use laneweave::models::change::{IncentiveName, LaneChangeModel};
 use laneweave::network::Side;
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 use laneweave_sim::{Account, Act, Event, Hindrance, Phase, Purpose, Random, Spot, World};
@@ -60,8 +60,8 @@ fn assert_weighed_as_by_hand(twin: &Twin, account: &Account) {
     assert_eq!(account.sides.iter().flatten().count(), by_hand.len());
     for side in account.sides.iter().flatten() {
         let expected = by_hand.iter().find(|it| it.side == side.side).expect("there is a lane");
-        for (row, expected) in side.appraisal.rows.iter().zip(expected.yields) {
-            assert_near(row.earning, expected);
+        for (name, expected) in expected.yields {
+            assert_near(side.appraisal.row(name).earning, expected);
         }
         assert_near(side.appraisal.gain, expected.gain);
     }
@@ -144,17 +144,9 @@ fn every_change_and_a_thousand_refusals_are_explained_as_by_hand() {
 
 /// The style with another weight of the incentive of row `row`.
 fn with_weight(style: &Style, row: usize, weight: f64) -> Style {
-    let mut model = twin::mcdm(&style.change).clone();
-    let place = match row {
-        0 => &mut model.speed.weight,
-        1 => &mut model.route.weight,
-        2 => &mut model.comfort.weight,
-        3 => &mut model.courtesy.weight,
-        4 => &mut model.urgency.weight,
-        _ => &mut model.keeping.weight,
-    };
-    *place = weight;
-    Style { change: LaneChangeModel::Mcdm(model), ..style.clone() }
+    let model = twin::mcdm(&style.change);
+    let of = |it| if it == IncentiveName::ALL[row] { weight } else { model.weight(it) };
+    Style { change: LaneChangeModel::Mcdm(model.clone().with_weights(of)), ..style.clone() }
 }
 
 /// The side to which the driver of `id` turns, who considers lanes in the next step of `saved`, with another weight

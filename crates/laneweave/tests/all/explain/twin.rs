@@ -1,6 +1,7 @@
 //! An independent computation of a driver's decision on a straight road: from a plain list of all vehicles, with the
 //! formulas of the book, without code of the program.
 
+use laneweave::models::change::IncentiveName::{self, Comfort, Courtesy, Keeping, Route, Speed, Urgency};
 use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal};
 use laneweave::models::follow::FollowingModel;
 use laneweave::network::Side;
@@ -37,8 +38,7 @@ pub(crate) struct Otherwise {
 #[derive(Debug)]
 pub(crate) struct Weighed {
     pub(crate) side: Side,
-    /// Yields of speed, route, comfort, courtesy, urgency.
-    pub(crate) yields: [f64; 6],
+    pub(crate) yields: [(IncentiveName, f64); 6],
     pub(crate) gain: f64,
 }
 
@@ -254,14 +254,14 @@ impl<'a> Twin<'a> {
             let [spacing, speed, length] = there.flow;
             let headway = (spacing - length - 2.0).max(0.0) / speed.max(2.0);
             let yields = [
-                (speed_there - speed_here) / me.desired,
-                ((time(speed_here) - time(speed_there)) / 60.0).clamp(-10.0, 10.0),
-                -headway.max(0.3).powf(-model.comfort.beta),
-                self.courtesy(&me, side, &here, &there),
-                0.0,
-                if side == Side::Right { stays(there.ahead) } else { -stays(here.ahead) },
+                (Speed, (speed_there - speed_here) / me.desired),
+                (Route, ((time(speed_here) - time(speed_there)) / 60.0).clamp(-10.0, 10.0)),
+                (Comfort, -headway.max(0.3).powf(-model.comfort.beta)),
+                (Courtesy, self.courtesy(&me, side, &here, &there)),
+                (Urgency, 0.0),
+                (Keeping, if side == Side::Right { stays(there.ahead) } else { -stays(here.ahead) }),
             ];
-            let gain = weights(model).into_iter().zip(yields).map(|(weight, it)| weight * it).sum();
+            let gain = yields.iter().map(|(name, it)| model.weight(*name) * it).sum();
             Some(Weighed { side, yields, gain })
         })
         .collect()
@@ -358,9 +358,4 @@ pub(crate) fn mcdm(change: &LaneChangeModel) -> &Mcdm {
         LaneChangeModel::Mcdm(model) => model,
         other => panic!("{other:?} has no twin"),
     }
-}
-
-fn weights(model: &Mcdm) -> [f64; 6] {
-    let Mcdm { speed, route, comfort, courtesy, urgency, keeping, .. } = model;
-    [speed.weight, route.weight, comfort.weight, courtesy.weight, urgency.weight, keeping.weight]
 }

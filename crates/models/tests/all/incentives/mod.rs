@@ -1,6 +1,7 @@
 //! The rows of the paper's table, one by one, against the worked numbers.
 
 mod keeping;
+mod list;
 mod others;
 mod route;
 

@@ -7,8 +7,8 @@ use crate::situations::{LITERAL_FVDM, ON_ROUTE, behind, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{Literal, Repaired};
 use laneweave_models::change::{
-    Comfort, Courtesy, Incentive, LaneChangeModel, LaneView, Merging, RouteView, Situation, Speed, Urgency,
-    anticipated_speed, discomfort, urgency,
+    Comfort, Courtesy, Incentive, IncentiveName, LaneChangeModel, LaneView, Merging, RouteView, Row,
+    Situation, Speed, Urgency, anticipated_speed, discomfort, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
@@ -87,7 +87,7 @@ fn courtesy_is_nothing_where_nobody_is_concerned() {
 }
 
 /// The driver, 10 m/s, leaves an old follower for a new one; all desire 14 m/s.
-fn between_followers() -> Situation<'static> {
+pub(crate) fn between_followers() -> Situation<'static> {
     let mut situation = empty_road(driver(&IDM, 10.0, 14.0));
     situation.here.ahead = Some(Ahead::steady(30.0, 9.0));
     situation.there.ahead = Some(Ahead::steady(25.0, 11.0));
@@ -206,25 +206,23 @@ fn a_change_earns_the_urgency_that_it_takes_away() {
 }
 
 #[test]
-fn the_rows_of_an_appraisal_are_the_incentives_in_their_order() {
+fn an_appraisal_has_the_yield_and_the_weight_of_each_incentive_in_its_row() {
     let mut model = mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1);
     model.urgency.weight = 5.0;
     model.keeping.weight = 6.0;
     let situation = Situation { keeps_to_the_slow_side: true, ..leaving_route(between_followers(), 40.0) };
     let chances = model.returning.chances(&situation);
     let expected = [
-        model.speed.earning(&situation, chances),
-        model.route.earning(&situation, chances),
-        model.comfort.earning(&situation, chances),
-        model.courtesy.earning(&situation, chances),
-        model.urgency.earning(&situation, chances),
-        model.keeping.earning(&situation, chances),
+        (IncentiveName::Speed, 1.0, model.speed.earning(&situation, chances)),
+        (IncentiveName::Route, 2.0, model.route.earning(&situation, chances)),
+        (IncentiveName::Comfort, 3.0, model.comfort.earning(&situation, chances)),
+        (IncentiveName::Courtesy, 4.0, model.courtesy.earning(&situation, chances)),
+        (IncentiveName::Urgency, 5.0, model.urgency.earning(&situation, chances)),
+        (IncentiveName::Keeping, 6.0, model.keeping.earning(&situation, chances)),
     ];
     let appraisal = model.appraise(&situation);
-    for (row, (earning, weight)) in
-        appraisal.rows.iter().zip(expected.into_iter().zip([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]))
-    {
-        assert_eq!((row.earning, row.weight), (earning, weight));
+    for (name, weight, earning) in expected {
+        assert_eq!(appraisal.row(name), Row { earning, weight }, "{name:?}");
     }
     let sum: f64 = appraisal.rows.iter().map(|row| row.earning * row.weight).sum();
     assert_near(appraisal.gain, sum, 1e-12);
@@ -235,8 +233,8 @@ fn where_comfort_weighs_more_nothing_else_does() {
     let usual = LaneChangeModel::Mcdm(mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1));
     let situation = leaving_route(between_followers(), 40.0);
     let [before, after] = [usual.appraise(&situation), usual.with_comfort(2.5).appraise(&situation)];
-    let comfort = before.rows[2];
-    assert_eq!((after.rows[2].weight, after.rows[2].earning), (7.5, comfort.earning));
+    let comfort = before.row(IncentiveName::Comfort);
+    assert_eq!(after.row(IncentiveName::Comfort), Row { weight: 7.5, ..comfort });
     assert_near(after.gain, before.gain + 4.5 * comfort.earning, 1e-12);
     let coin = LaneChangeModel::ConstantHazard(Default::default());
     assert_eq!(coin.with_comfort(2.5), coin);

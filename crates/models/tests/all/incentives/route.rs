@@ -6,7 +6,8 @@ use crate::situations::{ON_ROUTE, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Chances, Flow, Incentive, Returning, Route, RouteReading, RouteView, Situation, expected_time,
+    Chances, Flow, Incentive, IncentiveName, Returning, Route, RouteReading, RouteView, Situation,
+    expected_time,
 };
 use laneweave_models::follow::Ahead;
 
@@ -121,7 +122,10 @@ fn a_route_is_left_by_its_own_yield_alone_and_in_the_repaired_reading_only() {
     let appraisal = model.appraise_leaving(120.0, 60.0, 30.0).expect("half a minute is gained");
     assert_near(appraisal.gain, 0.58 * 0.5, 1e-12);
     assert_eq!(model.appraise_leaving(120.0, 100.0, 30.0), None);
-    assert_eq!(model.appraise_leaving(1e6, 0.0, 0.0).map(|it| it.rows[1].earning), Some(10.0));
+    assert_eq!(
+        model.appraise_leaving(1e6, 0.0, 0.0).map(|it| it.row(IncentiveName::Route).earning),
+        Some(10.0)
+    );
     assert_eq!(mcdm(Repaired, [1.26, 0.0, 0.03, 0.61], 1.1).appraise_leaving(120.0, 60.0, 0.0), None);
     assert_eq!(mcdm(Literal, [1.26, 0.58, 0.03, 0.61], 1.1).appraise_leaving(120.0, 60.0, 0.0), None);
 }

@@ -1,5 +1,6 @@
 //! Users change the numbers of a style for all of its drivers.
 
+use laneweave_models::change::IncentiveName;
 use laneweave_models::{Parameter, Style};
 use laneweave_sim::{Command, CommandError, Event, Setup, World};
 
@@ -138,7 +139,7 @@ fn drivers_with_more_courtesy_change_lanes_for_others_more_often() {
     let mut worlds = [1, 1].map(|threads| world("on_ramp.osm", 5000.0, 1, threads));
     let [usual, polite] = &mut worlds;
     [&mut *usual, &mut *polite].into_iter().for_each(|it| steps(it, 1800));
-    set(polite, Parameter::CourtesyWeight, 10.0);
+    set(polite, Parameter::Weight(IncentiveName::Courtesy), 10.0);
     let [usual, polite] = worlds.each_mut().map(|it| out_of_courtesy(it, 3000));
     assert!(polite > 2 * usual, "{polite} changes out of courtesy, {usual} with the usual weight");
 }
@@ -149,7 +150,7 @@ fn a_checkpoint_keeps_what_was_changed_and_threads_do_not_matter() {
     for threads in [1, 2, 4] {
         let mut first = world("ramps.osm", 4000.0, 1, threads);
         steps(&mut first, 600);
-        set(&mut first, Parameter::CourtesyWeight, 5.0);
+        set(&mut first, Parameter::Weight(IncentiveName::Courtesy), 5.0);
         set(&mut first, Parameter::SpeedFactor, 0.8);
         steps(&mut first, 100);
         // A command that still waits is kept, too.

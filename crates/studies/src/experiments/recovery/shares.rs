@@ -76,9 +76,11 @@ fn found(design: &Design, styles: [&Mcdm; 2]) -> f64 {
 /// What is assumed of the drivers of a style.
 fn known(design: &Design, model: &Mcdm) -> Assumptions {
     let layout = Layout::of(design);
-    let mut assumed = assumptions(design, &[0.0; 4], 1e3, &NO_SPREAD);
-    let weights = [model.speed.weight, model.comfort.weight, model.courtesy.weight, 0.0];
+    let mut assumed = assumptions(design, &vec![0.0; design.terms], 1e3, &NO_SPREAD);
+    let weights = [model.speed.weight, model.comfort.weight, model.courtesy.weight];
     let known = [-model.theta].into_iter().chain(weights).map(|it| it / model.sigma);
+    // No other incentive has a weight.
+    let known = known.chain(std::iter::repeat(0.0));
     for (at, value) in [layout.intercept()].into_iter().chain(layout.slopes()).zip(known) {
         assumed.prior.means[at] = value;
         assumed.is_fixed[at] = true;

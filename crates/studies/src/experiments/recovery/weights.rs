@@ -119,13 +119,13 @@ fn assumed(design: &Design, model: &Mcdm, spread: &PlaceSpread, process: Process
     /// A logit of a chance of 1.
     const CERTAIN: f64 = 700.0;
     let layout = Layout::of(design);
-    let mut assumed = assumptions(design, &[0.0; 4], 1e3, spread);
+    let mut assumed = assumptions(design, &vec![0.0; design.terms], 1e3, spread);
     let mut know = |parameter: usize, value: f64| {
         assumed.prior.means[parameter] = value;
         assumed.is_fixed[parameter] = true;
     };
     know(layout.intercept(), -model.theta / model.sigma);
-    know(layout.slopes().start + WEIGHTS.len(), 0.0);
+    layout.slopes().skip(WEIGHTS.len()).for_each(|it| know(it, 0.0));
     know(layout.spread(), 0.0);
     if process != Process::Waits {
         layout.acceptance().for_each(|it| know(it, 0.0));

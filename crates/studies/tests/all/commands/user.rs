@@ -1,8 +1,8 @@
 //! A user who does all that users can do, at random.
 
 use laneweave::{
-    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, Simulation,
-    VehicleId,
+    Class, Control, Fault, IncentiveName, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
+    Simulation, VehicleId,
 };
 
 /// A user, and how often it was obeyed.
@@ -88,7 +88,7 @@ impl User {
             }
             7 => {
                 let value = 2.0 * self.share();
-                simulation.set_parameter(style, Parameter::CourtesyWeight, value)
+                simulation.set_parameter(style, Parameter::Weight(IncentiveName::Courtesy), value)
             }
             8 => {
                 let lanelet = self.one(&simulation.lanelets()).ok_or_else(nobody)?;
