@@ -93,18 +93,18 @@ export async function the_demo_and_a_driver(around) {
     assert.ok((await opened.textContent(hook('act'))).length > 5);
     assert.ok((await opened.locator('[data-name][data-side]').count()) >= 1, 'bars');
     await shoot(opened, around.shots, 'driver');
-    await opened.click(hook('follow'));
-    await until(opened, 'it follows', (it) => it.camera.mode === 'follow');
-    await play(opened);
-    await opened.click(hook('eye'));
-    await until(opened, 'it looks through the eyes of the driver', (it) => it.camera.mode === 'eye');
-    await shoot(opened, around.shots, 'eye');
-    // It is found by its id, by keyboard alone.
+    // It is found by its id, by keyboard alone. Time stands, so that it does not leave while a slow machine looks for it.
     await opened.keyboard.press('Escape');
     await opened.keyboard.press('/');
     await opened.keyboard.type(id);
     await opened.keyboard.press('Enter');
     await until(opened, 'it is found', (it) => it.selected[0] === id);
+    await opened.click(hook('follow'));
+    await until(opened, 'it follows', (it) => it.camera.mode === 'follow');
+    await opened.click(hook('eye'));
+    await until(opened, 'it looks through the eyes of the driver', (it) => it.camera.mode === 'eye');
+    await play(opened);
+    await shoot(opened, around.shots, 'eye');
     await opened.fill(hook('find'), '99999999');
     await opened.keyboard.press('Enter');
     await opened.waitForSelector(`${hook('toasts')} >> text=99999999`);
