@@ -69,6 +69,16 @@ export async function play(opened) {
 /** What the page publishes of itself. */
 export const state = (opened) => opened.evaluate(() => window.laneweave);
 
+/** Waits until time stands. */
+export async function stands(opened) {
+  for (let before = -1; ; ) {
+    const now = await state(opened);
+    if (now.time_s === before) return now;
+    before = now.time_s;
+    await opened.waitForTimeout(2000);
+  }
+}
+
 /** Waits until the page publishes something for which `test` holds. */
 export async function until(opened, what, test) {
   const begin = Date.now();

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import path from 'node:path';
-import { hook, page, play, shoot, state, until, view } from './browser.mjs';
+import { hook, page, play, shoot, stands, state, until, view } from './browser.mjs';
 
 /** The number beside the slider of a style's weight of speed. */
 const field = (style) => `[data-style="${style}"][data-key="change.speed.weight"] ~ input[type=number]`;
@@ -46,6 +46,7 @@ export async function by_hand_and_saved({ browser, program, home, folder, shots 
   await play(opened);
   await opened.waitForTimeout(1500);
   await opened.click(hook('pause'));
+  await stands(opened);
   await opened.click(hook('save'));
   await opened.waitForSelector(`${hook('saved')} code`);
   const saved = await opened.textContent(`${hook('saved')} code`);

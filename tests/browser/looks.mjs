@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import path from 'node:path';
-import { hook, page, play, shoot, state, until, view } from './browser.mjs';
+import { hook, page, play, shoot, stands, state, until, view } from './browser.mjs';
 
 /** Opens a page on what `laneweave view` serves with these arguments, and checks at the end that nothing went wrong. */
 async function shown({ browser, program, folder }, args, size, look) {
@@ -29,16 +29,6 @@ async function fill(opened, vehicles) {
   await play(opened);
   await until(opened, `there are ${vehicles} vehicles`, (it) => it.vehicles >= vehicles);
   await opened.selectOption(hook('factor'), '1');
-}
-
-/** Waits until time stands. */
-async function stands(opened) {
-  for (let before = -1; ; ) {
-    const now = await state(opened);
-    if (now.time_s === before) return now;
-    before = now.time_s;
-    await opened.waitForTimeout(1000);
-  }
 }
 
 /** The ids of the vehicles that came into view, the last one last, as the frames of the page name them. */

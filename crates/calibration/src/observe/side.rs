@@ -49,8 +49,8 @@ pub struct ByDesired {
     pub lmrs: f32,
 }
 
-/// The incentives whose yields are terms of a fit as they are. Of the others the route is one with speed, comfort has a β,
-/// the yield of courtesy hardly depends on the desired speed, and urgency is not fitted.
+/// The incentives whose yields are terms of a fit as they are. Of the others the route is one with speed, comfort has a
+/// β, the yield of courtesy hardly depends on the desired speed, and urgency is not fitted.
 pub const PLAIN: [IncentiveName; INCENTIVES - 5] = {
     use IncentiveName::{Comfort, Courtesy, Route, Speed, Urgency};
     IncentiveName::all_but(&[Speed, Route, Comfort, Courtesy, Urgency])
