@@ -133,7 +133,9 @@ mod tests {
     #[test]
     fn the_null_control_has_no_reason_left_whichever_incentives_there_are() {
         let weights = IncentiveName::ALL.map(|it| format!("{}.weight = 1.0\n", it.name())).concat();
-        let weighed = format!("name = \"x\"\n[change]\nmodel = \"mcdm\"\nsigma = 0.01\n{weights}");
+        let weighed = format!(
+            "name = \"x\"\n[follow]\nmodel = \"idm\"\n[change]\nmodel = \"mcdm\"\nsigma = 0.01\n{weights}"
+        );
         let weighed =
             StyleTemplate::parse(&Source { path: "x.toml".into(), text: weighed }).expect("a style");
         let LaneChangeModel::Mcdm(model) = &weighed.typical().change else { panic!("mcdm") };
