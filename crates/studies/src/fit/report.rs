@@ -128,7 +128,7 @@ pub struct ByPaper {
     pub changed: usize,
     /// β; none without a maximum.
     pub beta: Option<f64>,
-    /// Weights of the [terms](by_paper_terms), speed with the route, with their standard errors; none without a
+    /// Weights of the terms, speed with the route, with their standard errors; none without a
     /// maximum.
     pub weights: Vec<[f64; 2]>,
 }
