@@ -198,7 +198,7 @@ fn a_number_that_the_style_cannot_have_is_refused_with_a_remedy() {
             0.5,
             "its model has no such number; choose one of follow.acceleration, follow",
         ),
-        (STYLE, Parameter::Politeness, 0.5, "choose one of change.theta, change.sigma"),
+        (STYLE, Parameter::Politeness, 0.5, "choose one of change.speed.weight, change.route.weight"),
         (STYLE, Parameter::Sigma, 0.0, "a logit rule without choice noise; give sigma a value above 0"),
     ];
     for (style, parameter, value, part) in refused {
