@@ -80,6 +80,7 @@ export class Toolbar {
 
   focusFinder(): void {
     this.find.focus();
+    this.find.select();
   }
 
   private title(state: State): HTMLElement {
