@@ -6,15 +6,16 @@ use std::path::Path;
 use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
-const LEVELS: [&[&str]; 10] = [
+const LEVELS: [&[&str]; 11] = [
     &["network", "models", "study"],
     &["maps", "sim"],
-    &["recordings"],
+    &["generate", "recordings"],
     &["calibration"],
-    &["scenario", "explain"],
+    &["scenario"],
     &["results"],
     &["laneweave"],
-    &["experiments", "viewer"],
+    &["studies"],
+    &["viewer"],
     &["cli"],
     &["bench"],
 ];

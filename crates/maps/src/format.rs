@@ -6,68 +6,12 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use laneweave_network::{DrivingSide, LaneUse, Network};
-
 use crate::commonroad;
-use crate::contents::Contents;
 use crate::error::MapError;
-use crate::graph::Graph;
 use crate::lanelet2;
-use crate::problem::Problem;
-use crate::rule::Rule;
+use crate::map::Map;
+use crate::options::ReadOptions;
 use crate::size::Size;
-
-/// A map that was read.
-#[derive(Clone, Debug)]
-pub struct Map {
-    /// Its roads.
-    pub network: Network,
-    /// Where vehicles may go from each lanelet.
-    pub graph: Graph,
-    /// The rules of traffic, beside the lanelets themselves.
-    pub rules: Vec<Rule>,
-    /// The other contents of the file.
-    pub contents: Contents,
-    /// Elements that could not be used unchanged, in order of lines.
-    pub problems: Vec<Problem>,
-    /// Latitude and longitude of the local frame's origin [°], if the map was projected.
-    pub origin: Option<(f64, f64)>,
-}
-
-/// How to read a map.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ReadOptions {
-    /// Latitude and longitude that become (0, 0) of the local frame [°]. Without it, the place of the map's first
-    /// node, rounded to 0.1°. It has no effect on maps with metric coordinates of their own.
-    pub origin: Option<(f64, f64)>,
-    /// The law whose speed limits apply where the map gives none.
-    pub law: Law,
-    /// On which side traffic drives. Without it, the map decides, or else the right.
-    pub driving_side: Option<DrivingSide>,
-    /// Largest size of its text, unpacked if it is compressed, up to [`Size::MAXIMUM`].
-    pub largest: Size,
-}
-
-/// The traffic law that applies on a map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Law {
-    /// That of Germany.
-    #[default]
-    Germany,
-    /// That of most of the United States.
-    UnitedStates,
-}
-
-impl Law {
-    /// Which lanes it wants drivers to use. Many states ask only slower traffic to keep to the slow side; none of that
-    /// is read here.
-    pub fn lane_use(self) -> LaneUse {
-        match self {
-            Law::Germany => LaneUse::SlowSide,
-            Law::UnitedStates => LaneUse::Free,
-        }
-    }
-}
 
 /// A format of map files.
 #[derive(Clone, Copy, Debug)]

@@ -1,18 +1,21 @@
-//! Map files read into road networks; and generated maps, which can be written as files.
+//! Map files read into road networks.
 //!
 //! A file is read into a [`Drawing`] (points, borders, and lanes between borders), and a drawing becomes a
-//! [`Network`](laneweave_network::Network). The generator makes drawings, too.
+//! [`Network`](laneweave_network::Network). Programs can make drawings, too, and write them as files.
 
+mod build;
 mod check;
 pub mod commonroad;
 mod conflict;
 mod contents;
-mod drawing;
+pub mod drawing;
 mod error;
 mod format;
-pub mod generate;
 mod graph;
 pub mod lanelet2;
+mod law;
+mod map;
+mod options;
 mod problem;
 mod regulation;
 mod routes;
@@ -25,8 +28,11 @@ pub use check::check;
 pub use contents::{Contents, Marking, MarkingPaint};
 pub use drawing::Drawing;
 pub use error::MapError;
-pub use format::{FORMATS, Format, Law, Map, ReadOptions, load};
+pub use format::{FORMATS, Format, load};
 pub use graph::{Graph, Node, NodeIndex};
+pub use law::Law;
+pub use map::Map;
+pub use options::ReadOptions;
 pub use problem::{BORDERS, Problem};
 pub use regulation::regulations;
 pub use routes::{By, Route, Sense, Step, routes};

@@ -6,7 +6,7 @@ mod roads;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use laneweave_maps::generate::{Grid, grid};
+use laneweave_generate::{Grid, grid};
 use laneweave_maps::regulations;
 use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network, SignalPlan};

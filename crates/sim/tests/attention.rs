@@ -2,7 +2,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::change::{ConstantHazard, LaneChangeModel, Mcdm, Rule, Speed};
 use laneweave_models::{Alertness, Attention, Style};
 use laneweave_network::{ChainIndex, Network};

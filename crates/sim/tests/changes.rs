@@ -2,7 +2,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway as draw_motorway};
+use laneweave_generate::{Motorway, motorway as draw_motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{
     Comfort, ConstantHazard, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency,

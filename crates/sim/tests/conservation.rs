@@ -2,7 +2,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_network::Network;
 use laneweave_sim::{Event, Setup, World};
 use roads::{Road, drivers};

@@ -2,7 +2,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::Network;
 use laneweave_sim::{Demand, Event, Fleet, Headways, Origin, Rate, Setup, World, WorldError};

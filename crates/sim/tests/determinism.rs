@@ -3,7 +3,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::change::{LaneChangeModel, Mcdm, Rule};
 use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
+use laneweave_generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::{Map, regulations};
 use laneweave_sim::{Event, LaneletAggregate, Setup, VehicleId, World};
 

@@ -2,7 +2,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Lmrs, Mobil, Traffic};
 use laneweave_models::follow::{FollowingModel, Fvdm};

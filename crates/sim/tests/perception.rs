@@ -2,7 +2,7 @@
 
 mod roads;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Attention;
 use laneweave_models::Style;
 use laneweave_models::change::{ConstantHazard, LaneChangeModel, Situation, Toward};

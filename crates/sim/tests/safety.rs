@@ -4,7 +4,7 @@ mod roads;
 
 use std::collections::BTreeMap;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Reading;
 use laneweave_models::Style;
 use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm};

@@ -3,7 +3,7 @@
 #[path = "roads/drivers.rs"]
 mod drivers;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::change::{LaneView, Situation};
 use laneweave_network::{Position, Side};
 use laneweave_sim::{Across, Navigator, Seen, Setup, Snapshot, Spot, Vehicle, World, perceive};

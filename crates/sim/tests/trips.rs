@@ -3,7 +3,7 @@
 #[path = "roads/drivers.rs"]
 mod drivers;
 
-use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
+use laneweave_generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::regulations;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Held, Placement, Setup, World, entry_queues};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
-use laneweave::maps::generate::{
+use laneweave::generate::{
     Arterial, Control, GenerateError, Grid, Hazard, Motorway, approach, arterial, grid, large_town, motorway,
     random, roundabout, town,
 };

@@ -1,6 +1,6 @@
 //! `laneweave generate`.
 
-use laneweave::maps::generate::{Hazard, random};
+use laneweave::generate::{Hazard, random};
 use laneweave::maps::lanelet2;
 use serde_json::{Value, json};
 

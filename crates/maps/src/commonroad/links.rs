@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use laneweave_network::{Lanelet, LaneletIndex, Polyline, Side};
 
-use super::document::LaneletElement;
+use super::element::LaneletElement;
 use crate::drawing::Crossing;
 use crate::problem::Problem;
 
@@ -210,7 +210,7 @@ fn may_cross(element: &LaneletElement, other: &LaneletElement, side: Side) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commonroad::document::Bound;
+    use crate::commonroad::element::Bound;
 
     #[test]
     fn the_own_bound_counts_before_the_neighbours() {

@@ -16,6 +16,7 @@
 //! without a link stay without one.
 
 mod document;
+mod element;
 mod links;
 mod rules;
 mod speed;
@@ -26,12 +27,15 @@ use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Polyline};
 
 use crate::contents::Contents;
 use crate::error::MapError;
-use crate::format::{Law, Map, ReadOptions};
 use crate::graph::Graph;
+use crate::law::Law;
+use crate::map::Map;
+use crate::options::ReadOptions;
 use crate::problem::Problem;
 use crate::shape::Shape;
 use crate::size::Size;
-use document::{Document, LaneletElement};
+use document::Document;
+use element::LaneletElement;
 use links::Places;
 use speed::SpeedSigns;
 

@@ -2,7 +2,7 @@
 //!
 //! After the documentation of CommonRoad's XML format, version 2020a.
 
-use super::document::LaneletElement;
+use super::element::LaneletElement;
 use crate::drawing::Crossing;
 
 /// Types of lanelets on which cars drive.

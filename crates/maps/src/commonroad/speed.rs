@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::document::{LaneletElement, Sign, problem};
+use super::element::{LaneletElement, Sign, problem};
 use crate::drawing::KMH_PER_MPS;
-use crate::format::Law;
+use crate::law::Law;
 use crate::problem::Problem;
 
 /// Numbers of signs that show a maximum speed, in the catalogues that CommonRoad knows: of Germany (used for
@@ -97,13 +97,13 @@ pub(super) fn limit(
 pub(super) fn default(law: Law, kinds: &[String]) -> f64 {
     let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
     if any(&["urban"]) {
-        law.limit_of(Some("road"), Some("urban"))
+        law.limit(Some("road"), Some("urban"))
     } else if any(&["highway", "interstate", "mainCarriageWay", "accessRamp", "exitRamp"]) {
-        law.limit_of(Some("highway"), Some("nonurban"))
+        law.limit(Some("highway"), Some("nonurban"))
     } else if any(&["country", "rural"]) {
-        law.limit_of(Some("road"), Some("nonurban"))
+        law.limit(Some("road"), Some("nonurban"))
     } else {
-        law.limit_of(Some("road"), Some("urban"))
+        law.limit(Some("road"), Some("urban"))
     }
 }
 

@@ -160,36 +160,3 @@ impl Composer {
         self.document.relations.push(Relation { id, members, tags, ..Relation::default() });
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ReadOptions;
-    use crate::generate::{Motorway, motorway};
-
-    #[test]
-    fn rules_of_all_kinds_are_read_again_as_they_were() {
-        let line = |x: f64, z: f64| vec![vec![Point::new(x, -3.5, z), Point::new(x, 0.0, z)]];
-        let kinds = [
-            RuleKind::TrafficLight,
-            RuleKind::RightOfWay { first: vec![1, 3], yielding: vec![2] },
-            RuleKind::AllWayStop { lanelets: vec![1, 2] },
-            RuleKind::StopSign,
-            RuleKind::Crosswalk { lanelets: vec![4] },
-            RuleKind::Other("virtual_stop".into()),
-        ];
-        let rules = kinds.into_iter().zip(100..).map(|(kind, id)| {
-            let (stop_lines, signs) = (line(id as f64, 0.0), line(id as f64, 5.0));
-            Rule { id, line: None, kind, lanelets: vec![1, 2], stop_lines, signs }
-        });
-        let drawing = Drawing {
-            rules: rules.collect(),
-            ..motorway(&Motorway { length_m: 300.0, ..Motorway::default() }).unwrap()
-        };
-        let map =
-            crate::lanelet2::read(compose(&drawing).write().as_bytes(), &ReadOptions::default()).unwrap();
-        assert_eq!(map.problems, []);
-        let read: Vec<Rule> = map.rules.into_iter().map(|it| Rule { line: None, ..it }).collect();
-        assert_eq!(read, drawing.rules);
-    }
-}

@@ -7,16 +7,13 @@ use super::lookup::Lookup;
 use super::orientation::reversals;
 use super::osm::{Document, Relation, Way};
 use super::regulation::rules;
-use super::rules;
+use super::rules::{self, Flaw};
 use super::sharing::{MAXIMUM_SHARING, Sharing};
 use super::speed::SpeedRules;
 use crate::contents::Contents;
 use crate::drawing::{Border, Drawing, Edge, Lane};
-use crate::format::ReadOptions;
+use crate::options::ReadOptions;
 use crate::problem::{BORDERS, Problem};
-
-/// Problems, and their remedies.
-pub(super) type Flaw = (String, &'static str);
 
 /// The drawing of the document in `lookup`. Its points are the nodes, used or not.
 pub(super) fn draw(

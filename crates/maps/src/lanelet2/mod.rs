@@ -3,7 +3,6 @@
 mod compose;
 mod contents;
 mod draw;
-mod law;
 mod lookup;
 mod orientation;
 mod osm;
@@ -21,7 +20,8 @@ pub use osm::Document;
 
 use crate::drawing::Drawing;
 use crate::error::MapError;
-use crate::format::{Map, ReadOptions};
+use crate::map::Map;
+use crate::options::ReadOptions;
 use crate::problem::{BORDERS, Problem};
 use crate::size::Size;
 use lookup::Lookup;

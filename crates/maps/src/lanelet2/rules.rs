@@ -2,10 +2,12 @@
 //!
 //! After the tagging guide of Lanelet2 (`LaneletAndAreaTagging`, `LinestringTagging`).
 
-use super::draw::Flaw;
 use super::osm::Tags;
 use crate::contents::MarkingPaint;
 use crate::drawing::{Crossing, Paint, Surroundings};
+
+/// A problem, and its remedy.
+pub(super) type Flaw = (String, &'static str);
 
 /// The tags that allow, or forbid, a lanelet for cars; the first one given decides.
 const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle"];

@@ -2,11 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::law::KMH_PER_MPH;
 use super::lookup::Lookup;
 use super::osm::{Document, Relation};
 use crate::drawing::KMH_PER_MPS;
-use crate::format::Law;
+use crate::law::{KMH_PER_MPH, Law};
 use crate::problem::Problem;
 
 /// Limits above this are taken as errors [km/h].
@@ -61,7 +60,7 @@ impl<'d> SpeedRules<'d> {
         let by_rule = rules.filter_map(|id| self.rules.get(&self.lookup.relation(id)?));
         let by_rule = by_rule.map(|said| (*said, "speed limit rule"));
         let by_tag = KEYS.into_iter().filter_map(|key| Some((Said::new(lanelet.line, tags.get(key)?), key)));
-        let default = law.limit(tags);
+        let default = law.limit(tags.get("subtype"), tags.get("location"));
         for (Said { line, text, limit }, source) in by_rule.chain(by_tag) {
             if let Some(limit) = limit {
                 return limit;

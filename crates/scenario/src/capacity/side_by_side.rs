@@ -4,7 +4,7 @@
 //! side have less capacity than as many single ones. A simulation gives this capacity: a straight road, with the same
 //! drivers, and a demand above capacity.
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
 

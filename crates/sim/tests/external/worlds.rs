@@ -1,6 +1,6 @@
 //! Worlds for these tests.
 
-use laneweave_maps::generate::own_maps;
+use laneweave_generate::own_maps;
 use laneweave_maps::{Map, regulations};
 use laneweave_models::{Attention, Style};
 use laneweave_network::Network;

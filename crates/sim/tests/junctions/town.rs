@@ -1,6 +1,6 @@
 //! Traffic on the maps that come with the program.
 
-use laneweave_maps::generate::own_maps;
+use laneweave_generate::own_maps;
 use laneweave_maps::{Map, regulations};
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network};
