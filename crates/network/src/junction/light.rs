@@ -1,6 +1,5 @@
 //! Traffic lights and their programs.
 
-use super::{StopKind, StopRule};
 use serde::{Deserialize, Serialize};
 
 /// A light's place in [`super::Junctions::lights`].
@@ -147,19 +146,4 @@ impl Program {
         }
         self.phases.iter().map(|it| it.to - it.from).sum::<f64>() / self.cycle
     }
-}
-
-/// The rules of lights. Lights that the drivers on one lanelet obey are together, ordered by their smallest ids.
-pub(super) fn sharing(stops: &[StopRule]) -> Vec<Vec<&StopRule>> {
-    let mut groups: Vec<Vec<&StopRule>> = Vec::new();
-    for rule in stops.iter().filter(|it| it.kind == StopKind::Light && !it.lanelets.is_empty()) {
-        let shares = |group: &Vec<&StopRule>| {
-            group.iter().any(|other| other.lanelets.iter().any(|it| rule.lanelets.contains(it)))
-        };
-        let (together, apart): (Vec<_>, Vec<_>) = groups.into_iter().partition(shares);
-        groups = apart;
-        groups.push(together.into_iter().flatten().chain([rule]).collect());
-    }
-    groups.sort_by_key(|group| group.iter().map(|it| it.id).min());
-    groups
 }

@@ -3,10 +3,10 @@
 use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
 
-use super::zone::Touch;
-use crate::build::Network;
 use crate::chain::{Chain, ChainIndex};
 use crate::geometry::Point;
+use crate::junction::Touch;
+use crate::network::Network;
 
 /// Length of the longest vehicle, width of the widest one and of a car [m]; contacts are found for these. Ours.
 pub(super) const LONGEST_VEHICLE: f64 = 12.0;

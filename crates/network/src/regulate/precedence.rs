@@ -5,11 +5,10 @@
 use std::f64::consts::PI;
 
 use super::kinship::Kinship;
-use super::zone::{Precedence, Touch, Zone};
-use super::{Regulations, StopKind, lineage};
-use crate::build::Network;
 use crate::chain::ChainIndex;
+use crate::junction::{Precedence, Regulations, StopKind, Touch, Zone};
 use crate::lanelet::LaneletIndex;
+use crate::network::Network;
 
 /// Stop signs that the drivers on a lanelet obey.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
@@ -166,4 +165,14 @@ pub(super) fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
         }
     }
     false
+}
+
+/// The lanelets near a chain whose rules its drivers follow: its own and those that lead to it.
+fn lineage<'a>(
+    network: &'a Network,
+    kinship: &'a Kinship,
+    chain: ChainIndex,
+) -> impl Iterator<Item = LaneletIndex> + 'a {
+    let before = kinship.ancestors(chain).iter().map(|it| it.0);
+    std::iter::once(chain).chain(before).flat_map(|it| network.chain(it).lanelets.iter().copied())
 }

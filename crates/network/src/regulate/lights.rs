@@ -1,62 +1,10 @@
-//! Which lights conflict, and the programs of those that do: phases, one after the other.
+//! Which lights conflict, and the plans of those without a program.
 
-use super::light::{LightIndex, Phase, Program};
-use super::{Junctions, Precedence, Sign, Touch, ZoneIndex};
-use crate::build::Network;
 use crate::chain::ChainIndex;
-
-/// A program for several lights: phases that follow each other and repeat.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SignalPlan {
-    /// Start of the first phase, and of every further cycle [s].
-    pub offset: f64,
-    /// The phases in order.
-    pub turns: Vec<Turn>,
-}
-
-/// A phase: some lights are green, then yellow, and then all are red.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Turn {
-    /// The lights that are green. A light that is green in the next phase, too, stays green in between.
-    pub lights: Vec<LightIndex>,
-    /// Length of green, the maximum if traffic extends it [s].
-    pub green: f64,
-    /// How traffic extends it; `None`: it is fixed.
-    pub extension: Option<Extension>,
-    /// Length of the yellow after it [s].
-    pub yellow: f64,
-    /// Length of red for all after that [s].
-    pub all_red: f64,
-}
-
-/// How traffic extends a green.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extension {
-    /// Minimum green [s].
-    pub least: f64,
-    /// Gap time: green ends when no vehicle has come for so long [s].
-    pub gap: f64,
-}
-
-impl Default for Extension {
-    /// Ours.
-    fn default() -> Extension {
-        Extension { least: 5.0, gap: 2.0 }
-    }
-}
-
-/// Two lights whose drivers conflict.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightConflict {
-    /// The lights; the one that comes first in the list is first.
-    pub lights: [LightIndex; 2],
-    /// Where: a zone in which neither side has priority, if there is one, or else any.
-    pub zone: ZoneIndex,
-    /// The side of the zone for the drivers of the first light.
-    pub side: u8,
-    /// In every zone one of them gives way, like a turn across oncoming traffic: both may be green.
-    pub is_ordered: bool,
-}
+use crate::junction::{
+    Junctions, LightConflict, LightIndex, Precedence, Sign, SignalPlan, Touch, Turn, ZoneIndex,
+};
+use crate::network::Network;
 
 /// Length of yellow [s] (definitions of generated programs).
 const YELLOW: f64 = 3.0;
@@ -67,71 +15,6 @@ const CLEARING_SPEED: f64 = 8.0;
 const LEAST_ALL_RED: f64 = 2.0;
 /// Minimum green [s]; with more groups than fit into the cycle, the cycle is longer. Ours.
 const LEAST_GREEN: f64 = 5.0;
-/// Maximum green of actuated lights [s]; ours.
-const LONGEST_GREEN: f64 = 40.0;
-
-impl Turn {
-    /// How long it takes [s].
-    pub fn duration(&self) -> f64 {
-        self.green + self.yellow + self.all_red
-    }
-}
-
-impl SignalPlan {
-    /// Its lights; a light of several phases comes several times.
-    pub fn lights(&self) -> impl Iterator<Item = LightIndex> {
-        self.turns.iter().flat_map(|it| it.lights.iter().copied())
-    }
-
-    /// Length of a cycle [s].
-    pub fn cycle(&self) -> f64 {
-        self.turns.iter().map(Turn::duration).sum()
-    }
-
-    /// The same lights, actuated, with greens of 5 to 40 s; ours.
-    pub fn actuated(mut self) -> SignalPlan {
-        for turn in &mut self.turns {
-            (turn.green, turn.extension) = (LONGEST_GREEN, Some(Extension::default()));
-        }
-        self
-    }
-
-    /// Whether traffic extends some of its greens.
-    pub fn is_actuated(&self) -> bool {
-        self.turns.iter().any(|it| it.extension.is_some())
-    }
-
-    /// The program of one of its lights; of an actuated one with the maximum greens.
-    pub fn program(&self, light: LightIndex) -> Program {
-        let has_turn = |number: usize| self.turns[number].lights.contains(&light);
-        let count = self.turns.len();
-        if (0..count).all(has_turn) {
-            return Program::ALWAYS_GREEN;
-        }
-        let cycle = self.cycle();
-        let mut phases: Vec<Phase> = Vec::new();
-        let mut from = self.offset;
-        for (number, turn) in self.turns.iter().enumerate() {
-            let phase = Phase { from, to: from + turn.green, yellow: turn.yellow };
-            match phases.last_mut() {
-                Some(last) if has_turn(number) && has_turn(number - 1) => {
-                    *last = Phase { from: last.from, ..phase };
-                }
-                _ if has_turn(number) => phases.push(phase),
-                _ => {}
-            }
-            from += turn.duration();
-        }
-        if has_turn(0) && has_turn(count - 1) {
-            let first = phases.remove(0);
-            if let Some(last) = phases.last_mut() {
-                *last = Phase { from: last.from, to: first.to + cycle, ..first };
-            }
-        }
-        Program { cycle, phases }
-    }
-}
-
 /// The pairs of lights that conflict.
 pub(super) fn conflicts(network: &Network, junctions: &Junctions) -> Vec<LightConflict> {
     between(junctions, &fields(network, junctions))

@@ -1,9 +1,9 @@
 //! Where drivers turn: where a lane changes its direction by more than 30° within 30 m, at a junction or not. Ours.
 
 use super::precedence::{TURNS, is_in_ring, turned};
-use crate::build::Network;
 use crate::chain::ChainIndex;
 use crate::geometry::Polyline;
+use crate::network::Network;
 
 /// Distance over which directions are compared [m].
 const SAMPLE: f64 = 5.0;

@@ -1,8 +1,8 @@
 //! How chains near each other are related: one after the other, forking off together, leading into one.
 
-use crate::build::Network;
 use crate::chain::{Chain, ChainIndex};
 use crate::lanelet::Side;
+use crate::network::Network;
 
 /// How far relations are followed along chains [m].
 const NEAR: f64 = 40.0;
