@@ -180,7 +180,7 @@ fn flag(tags: Tags, key: &str) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::osm::with_tags;
+    use crate::format::lanelet2::osm::with_tags;
 
     #[test]
     fn the_subtype_tells_who_may_use_a_lanelet() {

@@ -210,7 +210,7 @@ fn may_cross(element: &LaneletElement, other: &LaneletElement, side: Side) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commonroad::element::Bound;
+    use crate::format::commonroad::element::Bound;
 
     #[test]
     fn the_own_bound_counts_before_the_neighbours() {

@@ -83,8 +83,8 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::osm::{Coordinate, with_tags};
-    use crate::lanelet2::parse::parse;
+    use crate::format::lanelet2::osm::{Coordinate, with_tags};
+    use crate::format::lanelet2::parse::parse;
 
     const NODE: &str = "<node id='1' lat='49.04' lon='8.44' x='1' y='2' ele='3'>";
     const LOCAL: &str = "<tag k='local_x' v='4'/><tag k='local_y' v='5'/><tag k='ele' v='6'/>";

@@ -121,7 +121,7 @@ fn speed(text: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanelet2::parse::parse;
+    use crate::format::lanelet2::parse::parse;
 
     #[test]
     fn speeds_are_km_per_hour_unless_they_have_a_unit() {
