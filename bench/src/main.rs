@@ -12,7 +12,7 @@ use std::error::Error;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::time::Instant;
 
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::network::Network;
 use laneweave::sim::{Purpose, Random};
 use laneweave::{Class, NewVehicle, Simulation};

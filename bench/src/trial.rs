@@ -4,8 +4,8 @@
 use std::error::Error;
 
 use laneweave::Simulation;
+use laneweave::generate::{Control, Grid, grid, town};
 use laneweave::maps::Map;
-use laneweave::maps::generate::{Control, Grid, grid, town};
 use laneweave::network::{DrivingSide, Network};
 use laneweave::scenario::OdRow;
 use laneweave::sim::{Purpose, Random};

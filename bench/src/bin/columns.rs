@@ -6,7 +6,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::{Class, Columns, NewVehicle, Simulation};
 use laneweave_bench::say;
 

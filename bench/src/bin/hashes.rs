@@ -10,7 +10,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use laneweave::Simulation;
-use laneweave::maps::{Map, ReadOptions, generate, load};
+use laneweave::generate;
+use laneweave::maps::{Map, ReadOptions, load};
 use laneweave::network::Network;
 use laneweave_bench::say;
 use laneweave_bench::trial::{STEP_S, Trial};

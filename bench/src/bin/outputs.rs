@@ -13,7 +13,7 @@ use std::time::Instant;
 use std::{env, fs, process};
 
 use laneweave::Simulation;
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::maps::lanelet2;
 use laneweave::run::Run;
 use laneweave::scenario::{Origin, Scenario, SumoFile};

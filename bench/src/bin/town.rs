@@ -10,7 +10,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use laneweave::Simulation;
-use laneweave::maps::generate::{Grid, grid};
+use laneweave::generate::{Grid, grid};
 use laneweave_bench::{Rates, say};
 
 /// The allocator of the command.

@@ -45,6 +45,7 @@ pub use simulation::{
     Occurrence, Reason, SideEvaluation, Simulation, StyleState, VehicleState, Watcher,
 };
 
+pub use laneweave_generate as generate;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;
 pub use laneweave_network as network;

@@ -1,41 +1,42 @@
 //! A map as it is drawn: points, borders through them, and lanes between borders.
 
-use laneweave_network::{DrivingSide, Lanelet, Network, Point, Polygon, Polyline};
-use rayon::prelude::*;
+use laneweave_network::{DrivingSide, Point, Polygon, Polyline};
 
-use crate::conflict::conflicts;
-use crate::contents::Contents;
-use crate::error::MapError;
-use crate::format::Map;
-use crate::graph::{self, Graph};
-use crate::problem::Problem;
 use crate::rule::Rule;
-use crate::shape::{Flaw, Shape};
 
 /// The roads of a map file: borders that lanes share, as yet without a graph.
+///
+/// Points and borders are named by their place in its lists. A name that is in no list, or a border without points,
+/// is an error of the program that draws: [`build`](Drawing::build) and
+/// [`lanelet2::write`](crate::lanelet2::write) panic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    pub(crate) points: Vec<Point>,
-    pub(crate) borders: Vec<Border>,
-    pub(crate) lanes: Vec<Lane>,
-    pub(crate) rules: Vec<Rule>,
-    pub(crate) driving_side: DrivingSide,
+    /// Points of borders.
+    pub points: Vec<Point>,
+    /// Lines between lanes.
+    pub borders: Vec<Border>,
+    /// Lanes between borders.
+    pub lanes: Vec<Lane>,
+    /// Lights, signs and priorities.
+    pub rules: Vec<Rule>,
+    /// On which side traffic drives.
+    pub driving_side: DrivingSide,
 }
 
 /// A line between lanes.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Border {
+pub struct Border {
     /// Places in [`Drawing::points`].
-    pub(crate) points: Vec<u32>,
+    pub points: Vec<u32>,
     /// Its visible form.
-    pub(crate) paint: Paint,
+    pub paint: Paint,
     /// The directions in which it may be crossed, seen along its points.
-    pub(crate) crossing: Crossing,
+    pub crossing: Crossing,
 }
 
 /// The visible form of a border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Paint {
+pub enum Paint {
     /// A line, or another physical border.
     Painted,
     /// Nothing: it is in the map only.
@@ -44,110 +45,77 @@ pub(crate) enum Paint {
 
 /// In which directions a border may be crossed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Crossing {
-    pub(crate) to_left: bool,
-    pub(crate) to_right: bool,
+pub struct Crossing {
+    /// From right to left.
+    pub to_left: bool,
+    /// From left to right.
+    pub to_right: bool,
 }
 
 impl Crossing {
-    pub(crate) const NEVER: Crossing = Crossing { to_left: false, to_right: false };
-    pub(crate) const BOTH_WAYS: Crossing = Crossing { to_left: true, to_right: true };
+    /// In no direction.
+    pub const NEVER: Crossing = Crossing { to_left: false, to_right: false };
+    /// In both directions.
+    pub const BOTH_WAYS: Crossing = Crossing { to_left: true, to_right: true };
 
     /// The same, seen against the direction of the points.
-    pub(crate) fn reversed(self) -> Crossing {
+    pub fn reversed(self) -> Crossing {
         Crossing { to_left: self.to_right, to_right: self.to_left }
     }
 }
 
 /// A border as the side of a lane: run along its points, or against them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Edge {
+pub struct Edge {
     /// Place in [`Drawing::borders`].
-    pub(crate) border: u32,
-    pub(crate) reversed: bool,
+    pub border: u32,
+    /// Whether it is run against its points.
+    pub reversed: bool,
 }
 
 impl Edge {
     /// The same border, run the other way.
-    pub(crate) fn reversed(self) -> Edge {
+    pub fn reversed(self) -> Edge {
         Edge { reversed: !self.reversed, ..self }
     }
 }
 
 /// A lane between two borders, both run in its direction of travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lane {
-    pub(crate) id: i64,
+pub struct Lane {
+    /// Its id in the map.
+    pub id: i64,
     /// Line of the file in which it stands.
-    pub(crate) line: Option<usize>,
-    pub(crate) left: Edge,
-    pub(crate) right: Edge,
+    pub line: Option<usize>,
+    /// Its left side.
+    pub left: Edge,
+    /// Its right side.
+    pub right: Edge,
     /// It may be used against its direction, too.
-    pub(crate) is_two_way: bool,
-    pub(crate) surroundings: Surroundings,
+    pub is_two_way: bool,
+    /// Its surroundings.
+    pub surroundings: Surroundings,
     /// Speed limit [km/h].
-    pub(crate) limit_kmh: f64,
+    pub limit_kmh: f64,
 }
 
 /// The surroundings of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Surroundings {
+pub enum Surroundings {
     /// A motorway with its ramps.
     Motorway,
+    /// Streets within a town.
     Town,
     /// Open country.
     Country,
 }
 
 /// Kilometres an hour in a metre a second.
-pub(crate) const KMH_PER_MPS: f64 = 3.6;
+pub const KMH_PER_MPS: f64 = 3.6;
 
 impl Drawing {
-    /// The map of this drawing, with a problem for each lane that was left out because of its shape.
-    ///
-    /// # Errors
-    /// If no lane is left.
-    pub fn build(&self) -> Result<Map, MapError> {
-        let mut lanes = Vec::with_capacity(self.lanes.len());
-        let mut lanelets = Vec::with_capacity(self.lanes.len());
-        let mut problems = Vec::new();
-        let shape = |lane: &Lane| Shape::between(self.polyline(lane.left), self.polyline(lane.right));
-        let shapes: Vec<Result<Shape, Flaw>> = self.lanes.par_iter().map(shape).collect();
-        for (lane, shape) in self.lanes.iter().zip(shapes) {
-            match shape {
-                Ok(shape) => {
-                    lanes.push(*lane);
-                    let Shape { left, right, centre } = shape;
-                    let limit = lane.limit_kmh / KMH_PER_MPS;
-                    lanelets.push(Lanelet::alone(lane.id, [left, right, centre], limit));
-                }
-                Err(flaw) => problems.push(Problem {
-                    element: format!("lanelet {}", lane.id),
-                    line: lane.line,
-                    what: format!("{}, so it is left out", flaw.what),
-                    remedy: flaw.remedy.into(),
-                }),
-            }
-        }
-        if lanelets.is_empty() {
-            let remedy = "draw lanes between borders of some length";
-            return Err(MapError::NotDrivable { lanelets: self.lanes.len(), problems, remedy });
-        }
-        let nodes = graph::nodes(self, &lanes);
-        graph::link(&mut lanelets, &nodes);
-        let outlines: Vec<Option<Polygon>> = lanes.par_iter().map(|lane| self.outline(lane)).collect();
-        let are_joined = |a: usize, b: usize| self.are_joined(&lanes[a], &lanes[b]);
-        let mut conflicts = conflicts(&outlines, are_joined);
-        problems.extend(conflicts.problems(|it| (lanes[it.at()].id, lanes[it.at()].line)));
-        graph::add_two_way(&mut conflicts.with, &nodes);
-        let graph = Graph { nodes, conflicting: conflicts.with };
-        let network = Network::new(lanelets, self.driving_side)?;
-        let rules = self.rules.clone();
-        Ok(Map { network, graph, rules, contents: Contents::default(), problems, origin: None })
-    }
-
     /// The mirror image, with y negated: left and right change places.
-    pub(crate) fn mirrored(mut self) -> Drawing {
+    pub fn mirrored(mut self) -> Drawing {
         let turn = |point: &mut Point| point.y = -point.y;
         self.points.iter_mut().for_each(turn);
         let lines = self.rules.iter_mut().flat_map(|it| it.stop_lines.iter_mut().chain(&mut it.signs));
@@ -172,7 +140,7 @@ impl Drawing {
     }
 
     /// The area of a lane; `None` if it has none.
-    pub(crate) fn outline(&self, lane: &Lane) -> Option<Polygon> {
+    pub fn outline(&self, lane: &Lane) -> Option<Polygon> {
         Polygon::new(self.along(lane.left).chain(self.along(lane.right.reversed())))
     }
 
@@ -181,22 +149,6 @@ impl Drawing {
         let points = &self.borders[edge.border as usize].points;
         let (first, last) = (points[0], points[points.len() - 1]);
         if edge.reversed { (last, first) } else { (first, last) }
-    }
-
-    /// Whether two lanes lie on either side of a border, or one begins or ends where the other does, in some
-    /// direction of travel.
-    fn are_joined(&self, a: &Lane, b: &Lane) -> bool {
-        let is_beside = a.left == b.right || a.right == b.left;
-        let is_opposite = a.left == b.left.reversed() || a.right == b.right.reversed();
-        let start = |lane: &Lane| self.starts(lane.left, lane.right);
-        let finish = |lane: &Lane| self.finishes(lane.left, lane.right);
-        let turned = |(left, right): (u32, u32)| (right, left);
-        is_beside
-            || is_opposite
-            || finish(a) == start(b)
-            || finish(b) == start(a)
-            || finish(a) == turned(finish(b))
-            || start(a) == turned(start(b))
     }
 
     /// The directions in which `edge` may be crossed, seen in the direction of travel.
@@ -214,7 +166,7 @@ impl Drawing {
         })
     }
 
-    fn polyline(&self, edge: Edge) -> Option<Polyline> {
+    pub(crate) fn polyline(&self, edge: Edge) -> Option<Polyline> {
         Polyline::new(self.along(edge))
     }
 }

@@ -32,6 +32,24 @@ pub enum MapError {
         /// The formats with their extensions.
         known: String,
     },
+    /// It is something else than a map.
+    #[error("by its {told_by} this is {what}, not a map; {remedy}")]
+    OtherKind {
+        /// What it is.
+        what: String,
+        /// What tells that: its name or its content.
+        told_by: &'static str,
+        /// What to give in its place.
+        remedy: String,
+    },
+    /// It is a map of another format than its name says.
+    #[error("by its content this is a {format} map; rename it so that its name ends in .{extension}")]
+    Misnamed {
+        /// Its format.
+        format: &'static str,
+        /// The extension of files of that format.
+        extension: &'static str,
+    },
     /// It is larger than the limit; unpacked, if it is compressed.
     #[error(
         "the map is larger than the limit of {largest}; split it into smaller ones, or increase the limit"

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use laneweave_network::{LaneletIndex, Network, Priority, Regulations, StopKind, StopRule};
 
-use crate::format::Map;
+use crate::map::Map;
 use crate::rule::{Rule, RuleKind};
 
 /// The regulations for the junctions of `map`.

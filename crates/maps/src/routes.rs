@@ -12,8 +12,8 @@ use std::collections::{BTreeSet, BinaryHeap};
 use hashbrown::HashMap;
 use laneweave_network::Network;
 
-use crate::format::Map;
 use crate::graph::{Graph, Node, NodeIndex};
+use crate::map::Map;
 
 /// A route through a map.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,8 @@
 //! XML as a stream of elements with their lines, within limits, for all formats that are XML. Names and attributes
 //! are borrowed from the file.
 
+mod root;
+
 use std::borrow::Cow;
 use std::fmt::Display;
 
@@ -10,6 +12,8 @@ use quick_xml::events::attributes::Attributes;
 use quick_xml::events::{BytesRef, Event};
 use quick_xml::reader::Reader;
 use thiserror::Error;
+
+pub(crate) use root::root;
 
 /// Maximum depth of nested elements; no map format comes near.
 const MAXIMUM_DEPTH: usize = 32;

@@ -3,9 +3,9 @@
 
 use std::collections::HashMap;
 
-use crate::build::Network;
 use crate::geometry::{Point, Polyline};
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
+use crate::network::Network;
 
 /// A stretch on which two lanelets of one direction lie side by side without a common border.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,19 +3,8 @@
 //! The points of real maps are some decimetres beside the true line. So a centre line is averaged over an arc before
 //! its curvature is measured, with the chains that continue it at both ends.
 
-use crate::chain::{Chain, ChainIndex};
+use crate::chain::{Bend, Chain, ChainIndex};
 use crate::geometry::{Point, Polyline};
-
-/// A stretch of a chain of about the same curvature.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bend {
-    /// First station [m].
-    pub start: f64,
-    /// Last station [m].
-    pub end: f64,
-    /// Its largest curvature [1/m].
-    pub curvature: f64,
-}
 
 /// Distance between the samples of a centre line [m].
 const STEP: f64 = 1.0;
@@ -217,8 +206,8 @@ fn curvatures(points: &[Point], half_arc: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::build::Network;
     use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex};
+    use crate::network::Network;
 
     /// The network of one chain for each of `lines`, one after the other, under `limit` [m/s]. A lane from aside
     /// merges where the next line begins, so that it is another chain.

@@ -4,35 +4,11 @@ use thiserror::Error;
 
 use crate::bend::note_slow_places;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
-use crate::gate::{Gate, MINIMUM_GATE_LENGTH, gates, is_end_of_a_road, lane_drops};
-use crate::junction::{Crossing, Junctions, LightConflict, Reach, Regulations, SignalPlan};
+use crate::gate::{MINIMUM_GATE_LENGTH, gates, is_end_of_a_road, lane_drops};
+use crate::junction::Junctions;
 use crate::lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
+use crate::network::Network;
 use crate::width::note_open;
-
-/// A road network; it never changes after loading.
-#[derive(Clone, Debug)]
-pub struct Network {
-    /// Lanelets that vehicles may use.
-    pub lanelets: Vec<Lanelet>,
-    /// Chains of lanelets.
-    pub chains: Vec<Chain>,
-    /// Where vehicles come onto the map.
-    pub entrances: Vec<Gate>,
-    /// Where they leave it.
-    pub exits: Vec<Gate>,
-    /// Chains that end beside a continuing one.
-    pub lane_drops: Vec<ChainIndex>,
-    /// On which side traffic drives.
-    pub driving_side: DrivingSide,
-    /// Which lanes the law wants drivers to use.
-    pub lane_use: LaneUse,
-    /// Conflict zones, and where drivers stop; empty until [`Network::regulated`].
-    pub junctions: Junctions,
-    /// For each lanelet where it starts.
-    starts: Vec<Position>,
-    /// The lanelets in the order of their ids.
-    by_id: Vec<LaneletIndex>,
-}
 
 /// Why lanelets do not make a network.
 #[derive(Debug, Error, PartialEq)]
@@ -53,17 +29,13 @@ pub enum NetworkError {
     },
 }
 
-impl Network {
-    /// A chain is cut at the next lanelet beyond a length between these [m]. It is long enough that the work per
-    /// chain does not matter, and short enough that a vehicle soon comes into one array with the others.
-    const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
-    /// On this length of a lane before a junction a change is too short [m]. Ours.
-    const ROOM_TO_CHANGE: f64 = 15.0;
-    /// Length of a lane outside of junctions where vehicles enter the map [m]: enough for the longest vehicle. Ours.
-    const ROOM_TO_ENTER: f64 = 15.0;
-    /// Number of chains within these bounds, so that threads share them evenly.
-    const CHAINS: f64 = 32.0;
+/// A chain is cut at the next lanelet beyond a length between these [m]. It is long enough that the work per
+/// chain does not matter, and short enough that a vehicle soon comes into one array with the others.
+const CHAIN_LENGTHS: [f64; 2] = [5_000.0, 20_000.0];
+/// Number of chains within these bounds, so that threads share them evenly.
+const CHAINS: f64 = 32.0;
 
+impl Network {
     /// Builds the network of `lanelets`.
     ///
     /// # Errors
@@ -116,130 +88,6 @@ impl Network {
             by_id,
         })
     }
-
-    /// The same network with its junctions, at which `regulations` hold.
-    pub fn regulated(mut self, regulations: &Regulations) -> Network {
-        self.junctions = Junctions::new(&self, regulations);
-        // Lanes that share a conflict area with others at the edge of the map get a conflict zone: vehicles enter in
-        // turns.
-        let is_at_the_edge = |crossing: Crossing| {
-            let Reach { chain, start, end } = *self.junctions.other_side(crossing);
-            let chain = self.chain(chain);
-            let begins = chain.previous.is_empty() && start < Network::ROOM_TO_ENTER;
-            let ends = chain.following.is_empty() && end > chain.length - Network::ROOM_TO_ENTER;
-            begins || ends
-        };
-        let is_free = |chain: &ChainIndex| {
-            let is_open = self.chain(*chain).is_open(0.0, false);
-            let near = self
-                .junctions
-                .for_cars(*chain)
-                .take_while(|it| self.junctions.reach(*it).start < Network::ROOM_TO_ENTER);
-            is_open && near.into_iter().all(is_at_the_edge)
-        };
-        let mut entrances = self.entrances.clone();
-        entrances.iter_mut().for_each(|it| it.chains.retain(is_free));
-        entrances.retain(|it| !it.chains.is_empty());
-        self.entrances = entrances;
-        for index in 0..self.chains.len() {
-            for side in Side::BOTH {
-                let stretches = self.outside_of_junctions(ChainIndex(index as u32), side);
-                match side {
-                    Side::Left => self.chains[index].left = stretches,
-                    Side::Right => self.chains[index].right = stretches,
-                }
-            }
-        }
-        self
-    }
-
-    /// Which traffic lights conflict with each other.
-    pub fn light_conflicts(&self) -> Vec<LightConflict> {
-        self.junctions.light_conflicts(self)
-    }
-
-    /// The same network with lights that follow these plans.
-    pub fn with_signals(mut self, plans: &[SignalPlan]) -> Network {
-        self.junctions.follow(plans);
-        self
-    }
-
-    /// The stretches of a chain on which a change to `side` is allowed and can end before the next junction.
-    fn outside_of_junctions(&self, index: ChainIndex, side: Side) -> Vec<Beside> {
-        let mut left = Vec::new();
-        let here = self.taken_on(index);
-        for stretch in self.chain(index).stretches(side) {
-            let there = self.taken_on(stretch.chain).into_iter();
-            let there = there.map(|extent| extent.map(|station| stretch.back(station)));
-            left.extend(stretch.without(here.iter().copied().chain(there).collect()));
-        }
-        left
-    }
-
-    /// Stretches of a chain without lane changes [m]: before and within junctions, including those right before its
-    /// start, and while it is still one lane with others that fork off.
-    fn taken_on(&self, index: ChainIndex) -> Vec<[f64; 2]> {
-        let chain = self.chain(index);
-        let before = chain.previous.iter().flat_map(|it| {
-            let length = self.chain(*it).length;
-            self.junctions.extents(*it).into_iter().map(move |extent| extent.map(|station| station - length))
-        });
-        let fork = (chain.fork_clearance > 0.0).then_some([0.0, chain.fork_clearance]);
-        let junctions = self.junctions.extents(index).into_iter().chain(before);
-        junctions.map(|[start, end]| [start - Network::ROOM_TO_CHANGE, end]).chain(fork).collect()
-    }
-
-    /// The chain at `index`.
-    #[inline]
-    pub fn chain(&self, index: ChainIndex) -> &Chain {
-        &self.chains[index.at()]
-    }
-
-    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough for a change with a car,
-    /// or with a long vehicle [m]; the first is beyond the last if there is none.
-    pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
-        let there = self.chain(stretch.chain);
-        if !(chain.is_narrow || there.is_narrow) {
-            return [stretch.start, stretch.end];
-        }
-        let [from, until] = there.open[usize::from(is_long)].map(|it| stretch.back(it));
-        let [begins, ends] = chain.open[usize::from(is_long)];
-        [stretch.start.max(from).max(begins), stretch.end.min(until).min(ends)]
-    }
-
-    /// Where a lanelet starts.
-    #[inline]
-    pub fn start_of(&self, lanelet: LaneletIndex) -> Position {
-        self.starts[lanelet.at()]
-    }
-
-    /// The lanelet with this id; of several ones the first.
-    pub fn lanelet_with(&self, id: i64) -> Option<LaneletIndex> {
-        let place = self.by_id.partition_point(|it| self.lanelets[it.at()].id < id);
-        self.by_id.get(place).copied().filter(|it| self.lanelets[it.at()].id == id)
-    }
-
-    /// The lanelet at a place on a chain, and how far along it that is [m].
-    pub fn lanelet_at(&self, at: Position) -> (&Lanelet, f64) {
-        let (index, along) = self.chain(at.chain).lanelet(at.x);
-        (&self.lanelets[index.at()], along)
-    }
-
-    /// The same network with its chains stored in reverse order: the result of a simulation must not change.
-    pub fn with_chains_reversed(mut self) -> Network {
-        let last = self.chains.len() as u32 - 1;
-        let turn = |index: &mut ChainIndex| index.0 = last - index.0;
-        self.chains.reverse();
-        for chain in &mut self.chains {
-            chain.following.iter_mut().chain(&mut chain.previous).for_each(turn);
-            chain.left.iter_mut().chain(&mut chain.right).for_each(|it| turn(&mut it.chain));
-        }
-        self.entrances.iter_mut().chain(&mut self.exits).flat_map(|it| &mut it.chains).for_each(turn);
-        self.lane_drops.iter_mut().for_each(turn);
-        self.starts.iter_mut().for_each(|it| turn(&mut it.chain));
-        self.junctions.reverse_chains(turn);
-        self
-    }
 }
 
 fn previous(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
@@ -262,8 +110,8 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
         |it: LaneletIndex| previous[it.at()].first().is_some_and(|back| only_following(*back) == Some(it));
     let all = || (0..lanelets.len()).map(|i| LaneletIndex(i as u32));
     let total: f64 = lanelets.iter().map(Lanelet::length).sum();
-    let [shortest, longest] = Network::CHAIN_LENGTHS;
-    let enough = (total / Network::CHAINS).clamp(shortest, longest);
+    let [shortest, longest] = CHAIN_LENGTHS;
+    let enough = (total / CHAINS).clamp(shortest, longest);
     let mut taken = vec![false; lanelets.len()];
     let mut runs = Vec::new();
     // Runs with a first lanelet, then what is left: closed loops, which begin anywhere.

@@ -1,6 +1,5 @@
 //! Chains: maximal fork-free runs of lanelets, the lanes of the simulation.
 
-use crate::bend::Bend;
 use crate::geometry::Polyline;
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
 use serde::{Deserialize, Serialize};
@@ -84,6 +83,17 @@ pub struct Limit {
     pub start: f64,
     /// The limit [m/s].
     pub speed: f64,
+}
+
+/// A stretch of a chain of about the same curvature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bend {
+    /// First station [m].
+    pub start: f64,
+    /// Last station [m].
+    pub end: f64,
+    /// Its largest curvature [1/m].
+    pub curvature: f64,
 }
 
 /// A stretch of a chain beside another chain, with a change allowed.

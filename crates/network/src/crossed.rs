@@ -3,9 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::build::Network;
 use crate::chain::Beside;
 use crate::lanelet::{LaneletIndex, Side};
+use crate::network::Network;
 
 impl Network {
     /// The same network, in which changes from the first to the second lanelet of each of these pairs are permitted,

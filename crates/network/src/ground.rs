@@ -4,9 +4,9 @@
 use rstar::primitives::{GeomWithData, Rectangle as Box};
 use rstar::{AABB, RTree};
 
-use crate::build::Network;
 use crate::chain::{ChainIndex, Position};
 use crate::geometry::Point;
+use crate::network::Network;
 use crate::rectangle::Rectangle;
 
 /// Half the width of a path along the centre line of a lane [m] (ours). It is a little more than half of the widest

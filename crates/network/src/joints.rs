@@ -3,9 +3,10 @@
 
 use std::collections::HashMap;
 
-use crate::build::{Network, NetworkError};
+use crate::build::NetworkError;
 use crate::geometry::Point;
 use crate::lanelet::{Lanelet, LaneletIndex};
+use crate::network::Network;
 
 /// Maximum distance between corners that were drawn twice [m]. Ours.
 const MAXIMUM_GAP: f64 = 0.75;

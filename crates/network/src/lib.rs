@@ -14,16 +14,17 @@ mod ground;
 mod joints;
 mod junction;
 mod lanelet;
+mod network;
 mod polygon;
 mod rectangle;
+mod regulate;
 mod section;
 mod symmetry;
 mod width;
 
 pub use alongside::Alongside;
-pub use bend::Bend;
-pub use build::{Network, NetworkError};
-pub use chain::{Beside, Chain, ChainIndex, Limit, Position};
+pub use build::NetworkError;
+pub use chain::{Bend, Beside, Chain, ChainIndex, Limit, Position};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose};
 pub use ground::{Footprint, Ground};
@@ -34,6 +35,7 @@ pub use junction::{
     StopKind, StopRule, Touch, Turn, Zone, ZoneIndex, ZoneKind,
 };
 pub use lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
+pub use network::Network;
 pub use polygon::Polygon;
 pub use rectangle::Rectangle;
 pub use section::{Branch, Section, Sections};

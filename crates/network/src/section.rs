@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::build::Network;
 use crate::lanelet::{Lanelet, LaneletIndex};
+use crate::network::Network;
 
 /// The sections of a network.
 #[derive(Clone, Debug)]

@@ -122,6 +122,14 @@ pub enum RecordingError {
     /// The file has no content.
     #[error("the file is empty; download the recording again, or choose another file")]
     EmptyFile,
+    /// It is something else than a recording.
+    #[error("by its content this is {what}, not a recording; {remedy}")]
+    OtherKind {
+        /// What it is.
+        what: String,
+        /// What to give in its place.
+        remedy: &'static str,
+    },
     /// It is no text.
     #[error(
         "this is not a text file, so it cannot be a recording; choose another file, or decompress it first"

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
-use laneweave_maps::Problem;
+use laneweave_maps::{FileKind, Problem};
 
 use crate::commonroad;
 use crate::datasets::Dataset;
@@ -25,26 +25,29 @@ const PART: usize = 1 << 20;
 pub fn open(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Problem>), RecordingError> {
     let mut file = BufReader::with_capacity(PART, File::open(path)?);
     let start = file.fill_buf()?;
-    if start.starts_with(PARQUET) {
-        return parquet(path, layout);
-    }
     if start.is_empty() {
         return Err(RecordingError::EmptyFile);
     }
-    // Bytes that are no text would be shown unchanged in the message about them.
-    if start.contains(&0) {
-        return Err(RecordingError::NoText);
+    match FileKind::by_content(start) {
+        FileKind::Parquet => parquet(path, layout),
+        // Bytes that are no text would be shown unchanged in the message about them.
+        _ if start.contains(&0) => Err(RecordingError::NoText),
+        kind @ FileKind::Map(format) if !format.has_tracks => Err(RecordingError::OtherKind {
+            what: kind.to_string(),
+            remedy: "give it with --map, and the recording in its place",
+        }),
+        FileKind::Map(_) | FileKind::Xml => {
+            let mut bytes = Vec::new();
+            file.take(commonroad::MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
+            commonroad::read(&bytes)
+        }
+        kind @ FileKind::Toml if layout.is_none() => Err(RecordingError::OtherKind {
+            what: kind.to_string(),
+            remedy: "give the recording, and with --columns what its columns hold",
+        }),
+        _ => table(file, path, layout),
     }
-    if is_xml(start) {
-        let mut bytes = Vec::new();
-        file.take(commonroad::MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
-        return commonroad::read(&bytes);
-    }
-    table(file, path, layout)
 }
-
-/// The magic bytes of Parquet.
-const PARQUET: &[u8] = b"PAR1";
 
 #[cfg(feature = "parquet")]
 fn parquet(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Problem>), RecordingError> {
@@ -84,9 +87,4 @@ fn table(
     let (recording, more) = read(file, &dataset.layout(), &known)?;
     problems.extend(more);
     Ok((recording, problems))
-}
-
-fn is_xml(start: &[u8]) -> bool {
-    let start = start.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(start);
-    start.trim_ascii_start().first() == Some(&b'<')
 }

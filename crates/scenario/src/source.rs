@@ -27,6 +27,16 @@ impl Source {
         Ok(Source { path: path.to_owned(), text })
     }
 
+    /// Whether it is a scenario, and no style.
+    pub fn is_scenario(&self) -> bool {
+        self.has_key("map") && !self.has_key("follow")
+    }
+
+    /// Whether it is a style, and no scenario.
+    pub fn is_style(&self) -> bool {
+        self.has_key("follow") && !self.has_key("map")
+    }
+
     /// The folder to which its relative paths refer.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))

@@ -63,7 +63,7 @@ pub use state::setup::{Placement, Setup};
 pub use state::vehicle::{Body, Class, Fleet};
 pub use step::checkpoint::CheckpointError;
 pub use step::columns::Columns;
-pub use step::command::CommandError;
+pub use step::command_error::CommandError;
 pub use step::recorded::{RecordedPose, RecordedVehicle};
 pub use step::seal::{sealed, unsealed};
 pub use step::vehicle::Vehicle;

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
-use laneweave::maps::Size;
+use laneweave::maps::{FileKind, Size};
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
 use laneweave::{Fault, open_recordings};
 use laneweave_studies::check::{
-    GraphJson, Named, RecordingReport, Report, SetReport, explorer, extension, picture, tracks,
+    GraphJson, Named, RecordingReport, Report, SetReport, explorer, picture, tracks,
 };
 use serde::Serialize;
 
@@ -106,10 +106,11 @@ impl CheckArguments {
 
     fn map(&self) -> Result<(), Fault> {
         let file = &self.files[0];
-        if self.files.len() > 1 && self.files.iter().all(|it| extension(it) == "xml") {
+        let kind = FileKind::of(file);
+        if self.files.len() > 1 && self.files.iter().all(|it| FileKind::of(it).has_tracks()) {
             return self.set();
         }
-        if extension(file) == "csv" || self.files.len() > 1 {
+        if kind.is_table() || self.files.len() > 1 {
             return Err(Fault::new(
                 file.display(),
                 "a recording needs the map of its location",
@@ -118,8 +119,7 @@ impl CheckArguments {
         }
         self.check_outputs(file)?;
         let map = open_map(file, &self.options.options())?;
-        // A CommonRoad file may contain both.
-        let recording = if extension(file) == "xml" { tracks(file)? } else { None };
+        let recording = if kind.has_tracks() { tracks(file)? } else { None };
         let recording = recording.map(|(it, problems)| RecordingReport::of(it, &problems, &map.network));
         let report = Report::of(&map);
         if let Some(path) = &self.graph {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
-use laneweave::maps::generate::{
+use laneweave::generate::{
     Arterial, Control, GenerateError, Grid, Hazard, Motorway, approach, arterial, grid, large_town, motorway,
     random, roundabout, town,
 };
-use laneweave::maps::{Drawing, FORMATS, lanelet2};
+use laneweave::maps::{Drawing, FileKind, is_compressed};
 use laneweave::network::DrivingSide;
 use laneweave::output::write_whole;
 
@@ -178,13 +178,13 @@ impl Kind {
             Kind::Town(it) => ("town", &it.plain.file),
             Kind::Random(it) => ("random", &it.file),
         };
-        check_name(file)?;
+        let write = writer(file)?;
         let drawing = self.draw().map_err(|error| {
             let message = error.to_string();
             let (what, remedy) = message.rsplit_once("; ").unwrap_or((&message, "choose another"));
             Fault::new(format!("generate {name}"), what, remedy)
         })?;
-        write_whole(file, &lanelet2::write(&drawing))?;
+        write_whole(file, &write(&drawing))?;
         if let Kind::Random(it) = &self {
             say(&it.told())?;
         }
@@ -208,13 +208,16 @@ impl Kind {
     }
 }
 
-/// Refuses a file whose name is not that of a map.
-fn check_name(file: &Path) -> Result<(), Fault> {
-    let extension = file.extension().map_or("".into(), |it| it.to_string_lossy());
-    if FORMATS.iter().any(|format| format.extensions.contains(&extension.as_ref())) {
-        return Ok(());
-    }
-    Err(Fault::new(file.display(), "this is not a valid name for a map file", "use a name that ends in .osm"))
+/// The writer of the format that the name of a file says.
+fn writer(file: &Path) -> Result<fn(&Drawing) -> String, Fault> {
+    let writer = match FileKind::by_name(file) {
+        FileKind::Map(format) if !is_compressed(file) => format.write,
+        _ => None,
+    };
+    writer.ok_or_else(|| {
+        let what = "this is not a valid name for a map file";
+        Fault::new(file.display(), what, "use a name that ends in .osm")
+    })
 }
 
 impl MotorwayArguments {

@@ -7,6 +7,7 @@ use std::thread::available_parallelism;
 
 use clap::{Args, ValueHint};
 use laneweave::folder::{REPLAY, REPLAY_REPORT};
+use laneweave::maps::FileKind;
 use laneweave::output::write_whole;
 use laneweave::scenario::{MapOptions, Origin, Replay, Scenario};
 use laneweave::style::Model;
@@ -128,8 +129,8 @@ impl ReplayArguments {
             reactive_ids: self.reactive_ids.clone(),
             reactive_from_s: self.from,
         };
-        let is_map = |it: &&PathBuf| laneweave_studies::check::extension(it) == "xml";
-        let map = self.map.clone().or_else(|| self.recording.first().filter(is_map).cloned());
+        let has_map = |it: &&PathBuf| FileKind::of(it).has_tracks();
+        let map = self.map.clone().or_else(|| self.recording.first().filter(has_map).cloned());
         let map = map.ok_or_else(|| {
             let place = self.recording.first().map_or(String::new(), |it| it.display().to_string());
             Fault::new(place, "a recording needs the map of its location", "add --map MAP")

@@ -1,9 +1,9 @@
 //! `laneweave scenario`.
 
-use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueHint};
+use laneweave::maps::{FileKind, uncompressed};
 use laneweave::output::write_whole;
 use laneweave::scenario::{Origin, Scenario};
 use laneweave::{Fault, Simulation};
@@ -43,7 +43,7 @@ impl ScenarioCommand {
 
 impl New {
     fn execute(self) -> Result<(), Fault> {
-        if self.map.extension() == Some(OsStr::new("toml")) {
+        if let FileKind::Toml = FileKind::by_name(&self.map) {
             let what = "this is a scenario, but a map is expected";
             return Err(Fault::new(self.map.display(), what, "give the map instead, or copy the file"));
         }
@@ -61,7 +61,7 @@ impl New {
 
     /// Whether `file` may be written.
     fn check(&self, file: &Path) -> Result<(), Fault> {
-        if file.extension() != Some(OsStr::new("toml")) {
+        if !matches!(FileKind::by_name(file), FileKind::Toml) {
             return Err(Fault::new(
                 file.display(),
                 "this is not a valid name for a scenario file",
@@ -78,9 +78,7 @@ impl New {
 
 /// The name of a scenario file after that of `map`.
 fn named_after(map: &Path) -> PathBuf {
-    let name = map.file_name().unwrap_or_default().to_string_lossy();
-    let name = name.strip_suffix(".gz").unwrap_or(&name);
-    PathBuf::from(name).with_extension("toml")
+    PathBuf::from(uncompressed(map).as_ref()).with_extension("toml")
 }
 
 /// The relative path of `map` from the folder of `file`; `map` itself where there is none.

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
+use laneweave::maps::FileKind;
 use laneweave::record::SCENARIO;
 use laneweave::scenario::{Origin, open_map};
 use laneweave_studies::branch::Setting;
-use laneweave_studies::check::{extension, tracks};
+use laneweave_studies::check::tracks;
 use laneweave_viewer::{Live, Recorded, Rerun, Source};
 
 use super::check::Reading;
@@ -50,14 +51,12 @@ impl Shown {
                 return Err(Fault::new(second.display(), "one thing is shown at a time", remedy));
             }
         };
-        if path.is_dir() {
-            return run(path);
-        }
-        match extension(path).as_str() {
-            "csv" => {
+        match FileKind::of(path) {
+            FileKind::Folder => run(path),
+            kind if kind.is_table() => {
                 Err(Fault::new(path.display(), "a recording needs the map of its location", "add --map MAP"))
             }
-            "xml" => self.common_road(path, saved),
+            kind if kind.has_tracks() => self.common_road(path, saved),
             _ => self.simulated(path, saved),
         }
     }
@@ -83,7 +82,7 @@ impl Shown {
     /// A simulation that runs now.
     fn simulated(&self, path: &Path, saved: &Path) -> Result<Box<dyn Source>, Fault> {
         let (mut scenario, origin) = Origin::open(path)?;
-        if extension(path) != "toml" {
+        if !matches!(FileKind::by_name(path), FileKind::Toml) {
             scenario.map_options = self.options.options();
         }
         Ok(Box::new(Live::new(&scenario, &origin, saved.to_owned())?))

@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
+use laneweave::maps::FileKind;
 use laneweave::style::{BUILT_IN, StyleTemplate, copy, find};
 use laneweave::{Fault, Source};
 
@@ -51,7 +52,7 @@ impl StylesCommand {
             StylesCommand::New { name, from, file } => {
                 let text = copy(&named(&from)?, &name)?;
                 let file = file.unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
-                if file.extension().is_none_or(|it| it != "toml") {
+                if !matches!(FileKind::by_name(&file), FileKind::Toml) {
                     let what = "this is not a valid name for a style file";
                     return Err(Fault::new(file.display(), what, "use a name that ends in .toml"));
                 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Error;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue};
-use laneweave::maps::FORMATS;
+use laneweave::maps::FileKind;
 use laneweave::style::built_in;
 
 /// Adds the suggestion to an error about an unknown command.
@@ -22,13 +22,13 @@ pub(crate) fn with_tip(mut error: Error) -> Error {
 fn meant(word: &str) -> Option<String> {
     let typed: Vec<String> = std::env::args().skip(1).collect();
     let before = typed.iter().take_while(|it| *it != word).map(String::as_str).collect::<Vec<_>>();
-    let extension = Path::new(word).extension().unwrap_or_default().to_string_lossy();
-    let is_map = extension == "gz" || FORMATS.iter().any(|it| it.extensions.contains(&extension.as_ref()));
-    match before[..] {
-        ["styles"] if built_in(word).is_some() || extension == "toml" => Some(format!("styles show {word}")),
-        ["scenario"] if is_map => Some(format!("scenario new {word}")),
-        [] if is_map || extension == "toml" => Some(format!("run {word}")),
-        [] if word == "demo" => Some("(without a command, it runs the demo)".into()),
+    match (&before[..], FileKind::by_name(Path::new(word))) {
+        (["styles"], FileKind::Toml) => Some(format!("styles show {word}")),
+        (["styles"], _) if built_in(word).is_some() => Some(format!("styles show {word}")),
+        (["scenario"], FileKind::Map(_)) => Some(format!("scenario new {word}")),
+        ([], FileKind::Map(_) | FileKind::Toml) => Some(format!("run {word}")),
+        ([], kind) if kind.is_table() => Some(format!("check {word} --map MAP")),
+        ([], _) if word == "demo" => Some("(without a command, it runs the demo)".into()),
         _ => None,
     }
 }

@@ -1,6 +1,6 @@
 //! The estimated capacity of maps is right: just below it hardly any vehicle waits; above it about as many enter.
 
-use laneweave::maps::generate::{Control, Grid, Motorway, grid, motorway};
+use laneweave::generate::{Control, Grid, Motorway, grid, motorway};
 use laneweave::maps::{Drawing, regulations};
 use laneweave::models::Style;
 use laneweave::network::Network;

@@ -9,7 +9,7 @@ use toml::Table;
 const LEVELS: [&[&str]; 11] = [
     &["network", "models", "study", "test-data"],
     &["maps", "sim"],
-    &["recordings"],
+    &["generate", "recordings"],
     &["calibration"],
     &["scenario"],
     &["results"],

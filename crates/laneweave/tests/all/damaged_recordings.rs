@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use laneweave::style::Population;
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::{Network, Side};
 use laneweave_recordings::{

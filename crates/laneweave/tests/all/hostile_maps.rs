@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use laneweave::maps::{generate, lanelet2};
+use laneweave::generate;
+use laneweave::maps::lanelet2;
 use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare};
 use laneweave_sim::World;
 use laneweave_test_data::data;

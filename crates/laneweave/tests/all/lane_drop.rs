@@ -1,7 +1,7 @@
 //! A lane drop (catalogue V52): the flow is not above the capacity of the remaining lanes, a queue lowers it by at
 //! most 15 %, and no vehicle is stuck; and two lanes with equal inflow have equal densities.
 
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::models::Style;
 use laneweave::models::follow::Pace;
 use laneweave::network::{Network, Side};

@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::models::change::{ConstantHazard, LaneChangeModel, Mobil};
 use laneweave::study::{Estimate, Interval, mean};
 use laneweave::style::Population;

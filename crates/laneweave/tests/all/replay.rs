@@ -1,7 +1,7 @@
 //! Frames of small recordings as scenes: the positions of vehicles, and the knowledge of drivers.
 
 use laneweave::style::Population;
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_models::lateral::moved_share;
 use laneweave_network::{ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Side};

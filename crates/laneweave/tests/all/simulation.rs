@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::{
     Class, Columns, Control, Event, Fault, Light, LightState, NewVehicle, Phase, Side, Simulation,
     VehicleState,

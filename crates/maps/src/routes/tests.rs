@@ -1,8 +1,12 @@
-use super::*;
-use crate::generate::{Motorway, motorway};
+use std::path::Path;
 
-fn map(road: &Motorway) -> Map {
-    motorway(road).unwrap().build().unwrap()
+use super::*;
+use crate::{ReadOptions, load};
+
+/// A map of the repository.
+fn map(name: &str) -> Map {
+    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps").join(name), &ReadOptions::default())
+        .unwrap()
 }
 
 fn node(map: &Map, id: i64) -> NodeIndex {
@@ -11,32 +15,26 @@ fn node(map: &Map, id: i64) -> NodeIndex {
 
 #[test]
 fn a_road_is_one_way_whatever_lanes_are_changed() {
-    let map = map(&Motorway { lanes: 2, length_m: 500.0, ..Motorway::default() });
+    let map = map("motorway_2_lanes.osm");
     // Lanelets are numbered row by row, from the slow lane to the fast one.
-    let found = routes(&map, node(&map, 1), node(&map, 10), Sense::default());
+    let found = routes(&map, node(&map, 1), node(&map, 50), Sense::default());
     assert_eq!(found.len(), 1);
-    assert!((found[0].length - 500.0).abs() < 1e-9);
-    assert!((found[0].time - 500.0 / (120.0 / 3.6)).abs() < 1e-9);
+    assert!((found[0].length - 5000.0).abs() < 1e-9);
+    assert!((found[0].time - 5000.0 / (120.0 / 3.6)).abs() < 1e-9);
     assert_eq!(found[0].steps.iter().filter(|it| it.by == By::Left).count(), 1);
     assert_eq!(found[0].steps.iter().filter(|it| it.by == By::Right).count(), 0);
-    let straight = &routes(&map, node(&map, 2), node(&map, 10), Sense::default())[0];
+    let straight = &routes(&map, node(&map, 2), node(&map, 50), Sense::default())[0];
     let ids: Vec<i64> = straight
         .steps
         .iter()
         .map(|it| map.network.lanelets[map.graph.nodes[it.node.at()].lanelet.at()].id)
         .collect();
-    assert_eq!(ids, [2, 4, 6, 8, 10]);
+    assert!(ids.into_iter().eq((2..=50).step_by(2)));
 }
 
 #[test]
 fn there_is_a_way_exactly_where_the_graph_leads() {
-    let road = Motorway {
-        on_ramp_at: vec![500.0],
-        off_ramp_at: vec![1500.0],
-        length_m: 2500.0,
-        ..Motorway::default()
-    };
-    let map = map(&road);
+    let map = map("ramps.osm");
     for to in (0..map.graph.nodes.len() as u32).map(NodeIndex) {
         let search = Search::new(&map, to);
         for from in (0..map.graph.nodes.len() as u32).step_by(7).map(NodeIndex) {
@@ -52,8 +50,7 @@ fn there_is_a_way_exactly_where_the_graph_leads() {
 
 #[test]
 fn ways_over_the_same_roads_are_named_once_and_counted() {
-    let grid = crate::generate::own_maps().unwrap().into_iter().find(|it| it.0 == "grid.osm").unwrap();
-    let map = grid.1.build().unwrap();
+    let map = map("grid.osm");
     let roads = joined(
         &map.graph,
         &sections(&map.graph, |it| [it.left, it.right, it.adjacent_left, it.adjacent_right]),
@@ -79,19 +76,13 @@ fn ways_over_the_same_roads_are_named_once_and_counted() {
 
 #[test]
 fn nobody_drives_backwards() {
-    let map = map(&Motorway { length_m: 500.0, ..Motorway::default() });
+    let map = map("motorway_3_lanes.osm");
     assert!(routes(&map, node(&map, 13), node(&map, 1), Sense::default()).is_empty());
 }
 
 #[test]
 fn every_step_follows_on_the_one_before() {
-    let road = Motorway {
-        on_ramp_at: vec![500.0],
-        off_ramp_at: vec![1500.0],
-        length_m: 3000.0,
-        ..Motorway::default()
-    };
-    let map = map(&road);
+    let map = map("on_ramp.osm");
     let starts = map.network.entrances.iter().flat_map(|it| &it.chains);
     for start in starts.map(|it| map.network.chain(*it).lanelets[0]) {
         for end in map.network.exits.iter().flat_map(|it| &it.chains) {

@@ -160,8 +160,12 @@ fn files_that_cannot_be_read_say_why() {
     assert_eq!(refusal(&root.join("nowhere.osm")), "there is no such file; check the path");
     assert_eq!(refusal(root), "this is a folder; give a map file in it");
     assert_eq!(
+        refusal(&root.join("src/lib.rs")),
+        "no map format has the extension \"rs\"; known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+    );
+    assert_eq!(
         refusal(&root.join("Cargo.toml")),
-        "no map format has the extension \"toml\"; known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+        "by its name this is a scenario or a style, not a map; give the map itself, which a scenario names in its key map"
     );
     let file = std::env::temp_dir().join(format!("laneweave-maps-{}.OSM", std::process::id()));
     fs::write(&file, "[package]").unwrap();
@@ -169,4 +173,31 @@ fn files_that_cannot_be_read_say_why() {
     fs::write(&file, TWO_LANES).unwrap();
     assert_eq!(load(&file, &ReadOptions::default()).unwrap().network.lanelets.len(), 2);
     fs::remove_file(&file).unwrap();
+}
+
+#[test]
+fn a_file_with_a_wrong_name_is_told_by_its_content() {
+    let refusal = |name: &str, text: &str| {
+        let file = std::env::temp_dir().join(format!("laneweave-maps-{}-{name}", std::process::id()));
+        fs::write(&file, text).unwrap();
+        let refusal = load(&file, &ReadOptions::default()).unwrap_err().to_string();
+        fs::remove_file(&file).unwrap();
+        refusal
+    };
+    const LANELET2: &str = "by its content this is a Lanelet2 map; rename it so that its name ends in .osm";
+    for name in ["two.oms", "two.xml", "two"] {
+        assert_eq!(refusal(name, TWO_LANES), LANELET2, "{name}");
+    }
+    assert_eq!(
+        refusal("two.osm", "<?xml version='1.0'?><commonRoad/>"),
+        "by its content this is a CommonRoad map; rename it so that its name ends in .xml"
+    );
+    assert_eq!(
+        refusal("tracks.csv", "track_id,frame_id"),
+        "by its name this is a table, such as a recording, not a map; give the map of its location, known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+    );
+    assert_eq!(
+        refusal("town.scenario", "map = \"town.osm\""),
+        "by its content this is a scenario or a style, not a map; give the map itself, or let the name of a scenario end in .toml"
+    );
 }

@@ -2,12 +2,6 @@
 
 mod commonroad;
 mod lanelet2;
-mod large_town;
-mod motorways;
-mod own_maps;
 mod proportion;
-mod random_maps;
 mod real_maps;
 mod robustness;
-mod towns;
-mod work;

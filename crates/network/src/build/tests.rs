@@ -1,4 +1,5 @@
 use super::*;
+use crate::gate::Gate;
 use crate::geometry::{Point, Polyline};
 
 fn lanelet(id: i64, from: f64, to: f64, lane: f64) -> Lanelet {

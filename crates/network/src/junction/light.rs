@@ -1,9 +1,5 @@
 //! Traffic lights and their programs.
 
-use std::collections::{BTreeSet, HashMap};
-
-use super::{StopKind, StopRule};
-use crate::lanelet::LaneletIndex;
 use serde::{Deserialize, Serialize};
 
 /// A light's place in [`super::Junctions::lights`].
@@ -150,23 +146,4 @@ impl Program {
         }
         self.phases.iter().map(|it| it.to - it.from).sum::<f64>() / self.cycle
     }
-}
-
-/// The rules of lights. Lights that the drivers on one lanelet obey are together, ordered by their smallest ids.
-pub(super) fn sharing(stops: &[StopRule]) -> Vec<Vec<&StopRule>> {
-    // A group that has become part of a later one is empty.
-    let mut groups: Vec<Vec<&StopRule>> = Vec::new();
-    let mut group_of: HashMap<LaneletIndex, usize> = HashMap::new();
-    for rule in stops.iter().filter(|it| it.kind == StopKind::Light && !it.lanelets.is_empty()) {
-        let together: BTreeSet<usize> =
-            rule.lanelets.iter().filter_map(|it| group_of.get(it)).copied().collect();
-        let mut group: Vec<&StopRule> = Vec::new();
-        together.into_iter().for_each(|it| group.append(&mut groups[it]));
-        group.push(rule);
-        group_of.extend(group.iter().flat_map(|it| &it.lanelets).map(|it| (*it, groups.len())));
-        groups.push(group);
-    }
-    groups.retain(|it| !it.is_empty());
-    groups.sort_by_key(|group| group.iter().map(|it| it.id).min());
-    groups
 }

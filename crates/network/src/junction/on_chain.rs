@@ -1,6 +1,7 @@
 //! What drivers meet on a chain.
 
-use super::{LightIndex, Touch, ZoneIndex};
+use super::light::LightIndex;
+use super::zone::{Touch, ZoneIndex};
 
 /// What drivers meet on one chain, in the order of stations. Fields that they read in every step come first in
 /// memory.
@@ -8,9 +9,9 @@ use super::{LightIndex, Touch, ZoneIndex};
 #[repr(C, align(32))]
 pub struct OnChain {
     /// First and last place [m].
-    pub(super) extent: [f64; 2],
+    pub(crate) extent: [f64; 2],
     /// From the chain's end to the next place on any route [m].
-    pub(super) beyond: f64,
+    pub(crate) beyond: f64,
     /// All crossings and stops; of two at the same station the place to stop comes first.
     pub places: Vec<Place>,
     /// Places to stop.
@@ -76,7 +77,7 @@ pub enum Sign {
 }
 
 impl OnChain {
-    pub(super) const EMPTY: OnChain = OnChain {
+    pub(crate) const EMPTY: OnChain = OnChain {
         crossings: Vec::new(),
         stops: Vec::new(),
         places: Vec::new(),

@@ -1,6 +1,6 @@
 //! Lane changes at known times on a generated road, with noise: which are found, when, and which are not counted.
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_network::{Network, Side};
 use laneweave_recordings::{
     LaneChange, Matched, RecordedChangeKind, Recording, RoadUser, State, Track, lane_changes,

@@ -199,7 +199,7 @@ fn after(network: &Network, last: &Piece) -> Option<Piece> {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_maps::generate::{Motorway, motorway};
+    use laneweave_generate::{Motorway, motorway};
 
     use super::*;
 

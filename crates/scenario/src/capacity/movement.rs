@@ -52,7 +52,7 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
     /// Zones further apart belong to different junctions [m].
     const APART: f64 = 25.0;
     let junctions = &roads.network.junctions;
-    let is_lit = junctions.lit_sides(roads.network);
+    let is_lit = roads.network.lit_sides();
     let mut all: Vec<Movement> = Vec::new();
     for chain in roads.chains() {
         for crossing in &junctions.on(chain).crossings {

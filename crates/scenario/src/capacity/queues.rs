@@ -83,7 +83,7 @@ impl Known {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_maps::generate::{Grid, grid};
+    use laneweave_generate::{Grid, grid};
 
     use super::super::{Roads, lanes};
     use super::*;

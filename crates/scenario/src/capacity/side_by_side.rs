@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
 

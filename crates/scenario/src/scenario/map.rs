@@ -37,13 +37,7 @@ pub fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
 pub fn open_map(path: &Path, options: &MapOptions) -> Result<Map, Fault> {
     let mut origin = Origin::default();
     origin.replaced("map_options.origin", "--origin");
-    load(path, &ReadOptions::from(options)).map_err(|error| match error {
-        MapError::UnknownFormat { found, .. } if found == "toml" => {
-            let what = "by its name this is a scenario or a style, not a map";
-            Fault::new(path.display(), what, "give the map itself; a scenario names it in its key map")
-        }
-        _ => map_fault(&error, path, &origin),
-    })
+    load(path, &ReadOptions::from(options)).map_err(|error| map_fault(&error, path, &origin))
 }
 
 impl From<&MapOptions> for ReadOptions {
@@ -80,9 +74,15 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
             Fault::new(file, what, remedy)
         }
         (MapError::Origin(..), ..) => Fault::new(origin.place(&["map_options", "origin"]), what, remedy),
-        (MapError::Missing | MapError::Folder | MapError::UnknownFormat { .. }, _, Some(place)) => {
-            Fault::new(place, format!("map {file}: {what}"), remedy)
-        }
+        (
+            MapError::Missing
+            | MapError::Folder
+            | MapError::UnknownFormat { .. }
+            | MapError::OtherKind { .. }
+            | MapError::Misnamed { .. },
+            _,
+            Some(place),
+        ) => Fault::new(place, format!("map {file}: {what}"), remedy),
         _ => Fault::new(file, what, remedy),
     };
     fault.of_kind(kind)

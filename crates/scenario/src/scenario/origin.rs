@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use laneweave_maps::FileKind;
+
 use super::{Replay, Scenario};
 use crate::fault::Fault;
 use crate::source::Source;
@@ -29,10 +31,10 @@ impl Origin {
     /// # Errors
     /// If the scenario file cannot be read or is no scenario. A map is not read yet.
     pub fn open(path: &Path) -> Result<(Scenario, Origin), Fault> {
-        if path.extension().is_none_or(|it| it != "toml") {
-            return Ok((Scenario::of_map(path.to_owned()), Origin::default()));
+        match FileKind::by_name(path) {
+            FileKind::Toml => Origin::from_source(Source::read(path)?),
+            _ => Ok((Scenario::of_map(path.to_owned()), Origin::default())),
         }
-        Origin::from_source(Source::read(path)?)
     }
 
     /// The scenario in a text. Its relative paths start in `folder`.
@@ -45,7 +47,7 @@ impl Origin {
 
     fn from_source(source: Source) -> Result<(Scenario, Origin), Fault> {
         let path = &source.path;
-        if source.has_key("follow") && !source.has_key("map") {
+        if source.is_style() {
             let what = "this is a driver style, but a scenario or a map is expected";
             let remedy = format!("run a map with it: laneweave run MAP --style {}=1", path.display());
             return Err(Fault::new(path.display(), what, remedy));

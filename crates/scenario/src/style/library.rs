@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use laneweave_maps::FORMATS;
+use laneweave_maps::FileKind;
 
 use super::template::StyleTemplate;
 use crate::fault::{Fault, did_you_mean};
@@ -56,19 +56,19 @@ pub fn find(name: &str, folder: &Path, place: impl Fn() -> String) -> Result<Sou
     if let Some(it) = built_in(name) {
         return Ok(Source { path: format!("styles/{name}.toml").into(), text: it.text.into() });
     }
-    if name.ends_with(".toml") {
+    let kind = FileKind::by_name(Path::new(name));
+    if let FileKind::Toml = kind {
         let path = folder.join(name);
         let source = Source::read(&path).map_err(|Fault { place: file, what, remedy, .. }| {
             Fault::new(place(), format!("style file {file}: {what}"), remedy)
         })?;
-        if source.has_key("map") && !source.has_key("follow") {
+        if source.is_scenario() {
             let what = format!("{name} is a scenario, but a style is expected");
             return Err(Fault::new(place(), what, format!("run it: laneweave run {name}")));
         }
         return Ok(source);
     }
-    let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy();
-    if FORMATS.iter().any(|it| it.extensions.contains(&extension.as_ref())) {
+    if let FileKind::Map(_) = kind {
         let what = format!("{name} is a map, but a style is expected");
         return Err(Fault::new(place(), what, "list the styles with: laneweave styles list"));
     }

@@ -164,7 +164,7 @@ fn comes_round(network: &Network, start: ChainIndex) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_maps::generate::own_maps;
+    use laneweave_generate::own_maps;
     use laneweave_maps::regulations;
 
     use super::*;

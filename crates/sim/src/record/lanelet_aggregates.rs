@@ -172,7 +172,7 @@ impl LaneletAggregates {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_maps::generate::{Motorway, motorway};
+    use laneweave_generate::{Motorway, motorway};
 
     use super::*;
 

@@ -10,7 +10,7 @@ use crate::state::control::Control;
 use crate::state::goal::Destination;
 use crate::state::lane::VehicleId;
 use crate::state::setup::Placement;
-use crate::step::command::{CommandError, in_range};
+use crate::step::command_error::{CommandError, in_range};
 use crate::step::world::World;
 use crate::view::scene::Viewpoint;
 

@@ -7,7 +7,7 @@ use laneweave_network::LightState;
 use crate::state::command::Command;
 use crate::state::control::Control;
 use crate::state::lane::VehicleId;
-use crate::step::command::CommandError;
+use crate::step::command_error::CommandError;
 use crate::step::names;
 use crate::step::world::World;
 

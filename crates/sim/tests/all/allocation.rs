@@ -7,7 +7,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Grid, grid};
+use laneweave_generate::{Grid, grid};
 use laneweave_maps::regulations;
 use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network, SignalPlan};

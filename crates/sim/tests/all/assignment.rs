@@ -1,6 +1,6 @@
 //! Assignments: every vehicle is counted from its origin to its destination, on the lanes of its route.
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Assignment, Demand, Navigator};
 

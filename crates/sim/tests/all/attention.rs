@@ -1,7 +1,7 @@
 //! Inattentive drivers consider lanes less often, see less far, and see the lane beside as it was at their last turn.
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::change::{ConstantHazard, LaneChangeModel, Mcdm, Rule, Speed};
 use laneweave_models::{Alertness, Attention, Style};
 use laneweave_network::{ChainIndex, Network};

@@ -1,7 +1,7 @@
 //! Drivers change lanes never without a reason, soon with a reason, and not back and forth.
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway as draw_motorway};
+use laneweave_generate::{Motorway, motorway as draw_motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{
     Comfort, ConstantHazard, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency,

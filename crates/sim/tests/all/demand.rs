@@ -1,7 +1,7 @@
 //! Arrivals: a Poisson process, with classes drawn by shares, that nothing on the road delays.
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::Network;
 use laneweave_sim::{Demand, Event, Fleet, Headways, Origin, Rate, Setup, World, WorldError};

@@ -2,7 +2,7 @@
 //! and for drivers who look no further because of the gain bound.
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::change::{LaneChangeModel, Mcdm, Rule};
 use laneweave_models::{Attention, Style};
 use laneweave_network::{ChainIndex, Network};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_maps::generate::{Grid, grid};
+use laneweave_generate::{Grid, grid};
 use laneweave_sim::{Event, LaneletAggregate, VehicleId, World};
 
 use crate::roads::motorway_with_ramps;

@@ -1,7 +1,7 @@
 //! MOBIL and LMRS on the road: what their rules require of driving, besides the decision.
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Lmrs, Mobil, Traffic};
 use laneweave_models::follow::{FollowingModel, Fvdm};

@@ -1,7 +1,7 @@
 //! What a driver perceives of a scene placed by hand equals what is computed by hand.
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Attention;
 use laneweave_models::Style;
 use laneweave_models::change::{ConstantHazard, LaneChangeModel, Situation, Toward};

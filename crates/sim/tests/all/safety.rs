@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::roads::{Road, drivers};
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Reading;
 use laneweave_models::Style;
 use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm};

@@ -1,6 +1,6 @@
 //! A snapshot of a world's vehicles shows its drivers the same as the world does.
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::change::{LaneView, Situation};
 use laneweave_network::{Position, Side};
 use laneweave_sim::{Across, Navigator, Seen, Setup, Snapshot, Spot, Vehicle, World, perceive};

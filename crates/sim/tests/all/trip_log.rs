@@ -1,6 +1,6 @@
 //! Trip records agree with what happened.
 
-use laneweave_maps::generate::{Grid, Motorway, grid, motorway};
+use laneweave_generate::{Grid, Motorway, grid, motorway};
 use laneweave_maps::{Map, regulations};
 use laneweave_sim::{DrivingEvent, DrivingEventKind, Event, Setup, TripRecord, World};
 

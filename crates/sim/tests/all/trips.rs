@@ -1,6 +1,6 @@
 //! Records of trips: delay against the free travel time, number of stops, and reasons for waiting.
 
-use laneweave_maps::generate::{Grid, grid};
+use laneweave_generate::{Grid, grid};
 use laneweave_maps::regulations;
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Held, Placement, Setup, World, entry_queues};

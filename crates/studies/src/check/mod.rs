@@ -13,6 +13,6 @@ pub use graph::GraphJson;
 pub use laneweave_scenario::Remark;
 #[cfg(feature = "reports")]
 pub use picture::{explorer, picture};
-pub use recording::{ChangeRow, RecordingReport, extension, tracks};
+pub use recording::{ChangeRow, RecordingReport, tracks};
 pub use report::{Lit, Opening, Report};
 pub use set::{Named, SetReport};

@@ -79,11 +79,6 @@ pub struct ChangeRow {
     pub seen_after_s: f64,
 }
 
-/// The extension of a file's name, in lower case.
-pub fn extension(path: &Path) -> String {
-    path.extension().map_or(String::new(), |it| it.to_string_lossy().to_ascii_lowercase())
-}
-
 /// Reads the tracks of a CommonRoad file, if it has any.
 ///
 /// # Errors

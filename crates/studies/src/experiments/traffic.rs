@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use laneweave::maps::generate::{Arterial, Motorway, arterial, large_town, motorway, own_maps};
+use laneweave::generate::{Arterial, Motorway, arterial, large_town, motorway, own_maps};
 use laneweave::maps::{Law, Map, MapError};
 use laneweave::network::DrivingSide;
 use laneweave::scenario::{OdRow, Origin, Scenario, Signal, SignalPhase, VehiclesPerHour, mixture};

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use laneweave::sim::Navigator;
 use laneweave_calibration::observe::{Begin, Observations, Options, Origin, observe};
+use laneweave_maps::FileKind;
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
 use laneweave_recordings::{Matched, Recording, clean, join, lane_changes};
@@ -12,7 +13,6 @@ use laneweave_scenario::scenario::{MapOptions, open_map};
 use laneweave_scenario::{Fault, elsewhere, open_recording};
 
 use super::Request;
-use crate::check::extension;
 
 /// The recordings with their maps.
 pub(super) struct Sources {
@@ -132,7 +132,7 @@ impl Request {
     fn read_with_own_maps(&self, recordings: Vec<Recording>) -> Result<(Vec<SiteMap>, Vec<Part>), Fault> {
         let (mut sites, mut parts): (Vec<SiteMap>, Vec<Part>) = (Vec::new(), Vec::new());
         for (path, recording) in self.recordings.iter().zip(recordings) {
-            if extension(path) != "xml" {
+            if !FileKind::of(path).has_tracks() {
                 let what = "a recording needs the map of its location";
                 return Err(Fault::new(path.display(), what, "add --map MAP"));
             }

@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use laneweave::maps::generate::{Motorway, motorway};
+use laneweave::generate::{Motorway, motorway};
 use laneweave::maps::{ReadOptions, lanelet2};
 use laneweave::sim::{Purpose, Random};
 use laneweave_studies::check::{GraphJson, Report, picture};

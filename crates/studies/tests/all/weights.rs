@@ -2,7 +2,7 @@
 //! ten simulated minutes with about 1,000 vehicles and five paired seeds. The weights are changed as a user changes
 //! them, by commands.
 
-use laneweave::maps::generate::large_town;
+use laneweave::generate::large_town;
 use laneweave::network::DrivingSide;
 use laneweave::{Event, IncentiveName, LaneChange, LaneChangeKind, Parameter, Simulation};
 use laneweave_studies::in_parallel;

@@ -1,6 +1,6 @@
 //! `laneweave generate`.
 
-use laneweave::maps::generate::{Hazard, random};
+use laneweave::generate::{Hazard, random};
 use laneweave::maps::lanelet2;
 use serde_json::{Value, json};
 
@@ -27,6 +27,8 @@ fn what_cannot_be_built_is_refused_and_not_written() {
         ("--lanes 0 own.osm", "0 lanes; choose 1 to 12"),
         ("--on-ramp-at 4900 own.osm", "but its length is 5000 m; move it or lengthen the road"),
         ("own.txt", "own.txt: this is not a valid name for a map file; use a name that ends in .osm"),
+        ("own.xml", "own.xml: this is not a valid name for a map file; use a name that ends in .osm"),
+        ("own.osm.gz", "own.osm.gz: this is not a valid name for a map file"),
         ("none/own.osm", "none/own.osm: cannot be written"),
     ] {
         let run = folder.laneweave(&format!("generate motorway {options}"));

@@ -282,9 +282,37 @@ fn scenarios_styles_and_maps_in_place_of_each_other() {
     for line in ["check s.toml", "routes s.toml 1 2"] {
         assert_eq!(
             answer(&folder, line),
-            "s.toml: by its name this is a scenario or a style, not a map; give the map itself; a scenario names it in its key map"
+            "s.toml: by its name this is a scenario or a style, not a map; give the map itself, which a scenario names in its key map"
         );
     }
+}
+
+#[test]
+fn maps_recordings_and_tables_in_place_of_each_other() {
+    let table = "track_id,frame_id\n1,2\n";
+    let folder = Folder::new().with("t.csv", table).with("m.osm", "<osm/>").with("m", "<osm/>");
+    assert_eq!(
+        refusal(&folder, "run t.csv"),
+        "t.csv: by its name this is a table, such as a recording, not a map; give the map of its location, known are \
+         Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+    );
+    for line in ["check t.csv", "view t.csv", "replay t.csv"] {
+        assert_eq!(
+            answer(&folder, line),
+            "t.csv: a recording needs the map of its location; add --map MAP",
+            "{line}"
+        );
+    }
+    assert_eq!(
+        answer(&folder, "check m.osm --map MAPS/ramps.osm"),
+        "m.osm: by its content this is a Lanelet2 map, not a recording; give it with --map, and the recording in its place"
+    );
+    std::fs::write(folder.path().join("t.toml"), "map = \"m.osm\"\n").unwrap();
+    assert!(answer(&folder, "check t.toml --map MAPS/ramps.osm").contains("this is a scenario or a style"));
+    assert_eq!(
+        refusal(&folder, "run m"),
+        "m: by its content this is a Lanelet2 map; rename it so that its name ends in .osm"
+    );
 }
 
 #[test]
@@ -316,6 +344,7 @@ fn files_and_styles_where_a_command_is_wanted() {
         ("mine.toml --duration 5", "run mine.toml"),
         ("styles aggressive", "styles show aggressive"),
         ("scenario road.osm.gz", "scenario new road.osm.gz"),
+        ("tracks.csv", "check tracks.csv --map MAP"),
         ("demo", "(without a command, it runs the demo)"),
     ] {
         let refused = answer(&folder, line);

@@ -1,6 +1,6 @@
 //! The road of the paper's figure, and its lanes by their letters.
 
-use laneweave::maps::generate::approach;
+use laneweave::generate::approach;
 use laneweave::maps::regulations;
 use laneweave::network::{ChainIndex, DrivingSide, Gate, Network, Side, Symmetry, symmetry};
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use laneweave::style::Population;
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
 use laneweave_recordings::{Drone, Recording, Watch};

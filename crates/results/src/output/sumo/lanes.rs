@@ -43,7 +43,7 @@ fn lanes_beyond(network: &Network, from: LaneletIndex, side: Side, most: usize) 
 
 #[cfg(test)]
 mod tests {
-    use laneweave_maps::generate::{Motorway, motorway};
+    use laneweave_generate::{Motorway, motorway};
 
     use super::*;
 

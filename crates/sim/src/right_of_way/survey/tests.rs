@@ -1,4 +1,4 @@
-use laneweave_maps::generate::own_maps;
+use laneweave_generate::own_maps;
 use laneweave_maps::{Drawing, regulations};
 use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Mcdm};
@@ -105,7 +105,7 @@ fn regulated(drawing: &Drawing) -> Network {
 fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
     let mut surveyed = 0;
     for seed in 1..=12 {
-        let network = regulated(&laneweave_maps::generate::random(seed).drawing);
+        let network = regulated(&laneweave_generate::random(seed).drawing);
         survey_all_over(&network, |scene, applicant, out| {
             surveyed += 1;
             points(scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
@@ -141,7 +141,7 @@ fn two_crossings(line: f64) -> Network {
 
 #[test]
 fn a_reservation_leads_over_every_line_before_which_the_rear_would_still_stand_in_a_zone() {
-    let drawings = (1..=12).map(|it| laneweave_maps::generate::random(it).drawing);
+    let drawings = (1..=12).map(|it| laneweave_generate::random(it).drawing);
     let own = own_maps().unwrap().into_iter().map(|it| it.1);
     let drawn = drawings.chain(own).map(|it| regulated(&it));
     // A truck has left the first crossing when its front is at about 64 m.

@@ -1,6 +1,6 @@
 //! Traffic lights with actuated greens.
 
-use laneweave_maps::generate::{Grid, grid};
+use laneweave_generate::{Grid, grid};
 use laneweave_maps::{Map, regulations};
 use laneweave_network::{ChainIndex, Extension, LightIndex, LightState, Network, Sign, SignalPlan, Turn};
 use laneweave_sim::{Command, Rate, Setup, World};

@@ -1,6 +1,6 @@
 //! Drivers who are guided by measured travel times.
 
-use laneweave_maps::generate::{Motorway, motorway};
+use laneweave_generate::{Motorway, motorway};
 use laneweave_network::Network;
 use laneweave_sim::{Setup, World};
 

@@ -2,7 +2,7 @@
 
 pub(crate) mod drivers;
 
-use laneweave_maps::generate::{Motorway, motorway, own_maps};
+use laneweave_generate::{Motorway, motorway, own_maps};
 use laneweave_maps::{Graph, Map, ReadOptions, load, regulations};
 use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
 use laneweave_test_data::data;

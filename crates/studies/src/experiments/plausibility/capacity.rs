@@ -1,7 +1,7 @@
 //! What lanes and bottlenecks carry, and how jams move.
 
 use laneweave::Fault;
-use laneweave::maps::generate::Motorway;
+use laneweave::generate::Motorway;
 
 use crate::experiments::drive::{drive_all, over};
 use crate::experiments::effort::Effort;

@@ -1,0 +1,85 @@
+//! The road network: chains, what lies beside and beyond them, entrances and exits, junctions.
+
+use crate::chain::{Beside, Chain, ChainIndex, Position};
+use crate::gate::Gate;
+use crate::junction::Junctions;
+use crate::lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex};
+
+/// A road network; it never changes after loading.
+#[derive(Clone, Debug)]
+pub struct Network {
+    /// Lanelets that vehicles may use.
+    pub lanelets: Vec<Lanelet>,
+    /// Chains of lanelets.
+    pub chains: Vec<Chain>,
+    /// Where vehicles come onto the map.
+    pub entrances: Vec<Gate>,
+    /// Where they leave it.
+    pub exits: Vec<Gate>,
+    /// Chains that end beside a continuing one.
+    pub lane_drops: Vec<ChainIndex>,
+    /// On which side traffic drives.
+    pub driving_side: DrivingSide,
+    /// Which lanes the law wants drivers to use.
+    pub lane_use: LaneUse,
+    /// Conflict zones, and where drivers stop; empty until [`Network::regulated`].
+    pub junctions: Junctions,
+    /// For each lanelet where it starts.
+    pub(crate) starts: Vec<Position>,
+    /// The lanelets in the order of their ids.
+    pub(crate) by_id: Vec<LaneletIndex>,
+}
+
+impl Network {
+    /// The chain at `index`.
+    #[inline]
+    pub fn chain(&self, index: ChainIndex) -> &Chain {
+        &self.chains[index.at()]
+    }
+
+    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough for a change with a car,
+    /// or with a long vehicle [m]; the first is beyond the last if there is none.
+    pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
+        let there = self.chain(stretch.chain);
+        if !(chain.is_narrow || there.is_narrow) {
+            return [stretch.start, stretch.end];
+        }
+        let [from, until] = there.open[usize::from(is_long)].map(|it| stretch.back(it));
+        let [begins, ends] = chain.open[usize::from(is_long)];
+        [stretch.start.max(from).max(begins), stretch.end.min(until).min(ends)]
+    }
+
+    /// Where a lanelet starts.
+    #[inline]
+    pub fn start_of(&self, lanelet: LaneletIndex) -> Position {
+        self.starts[lanelet.at()]
+    }
+
+    /// The lanelet with this id; of several ones the first.
+    pub fn lanelet_with(&self, id: i64) -> Option<LaneletIndex> {
+        let place = self.by_id.partition_point(|it| self.lanelets[it.at()].id < id);
+        self.by_id.get(place).copied().filter(|it| self.lanelets[it.at()].id == id)
+    }
+
+    /// The lanelet at a place on a chain, and how far along it that is [m].
+    pub fn lanelet_at(&self, at: Position) -> (&Lanelet, f64) {
+        let (index, along) = self.chain(at.chain).lanelet(at.x);
+        (&self.lanelets[index.at()], along)
+    }
+
+    /// The same network with its chains stored in reverse order: the result of a simulation must not change.
+    pub fn with_chains_reversed(mut self) -> Network {
+        let last = self.chains.len() as u32 - 1;
+        let turn = |index: &mut ChainIndex| index.0 = last - index.0;
+        self.chains.reverse();
+        for chain in &mut self.chains {
+            chain.following.iter_mut().chain(&mut chain.previous).for_each(turn);
+            chain.left.iter_mut().chain(&mut chain.right).for_each(|it| turn(&mut it.chain));
+        }
+        self.entrances.iter_mut().chain(&mut self.exits).flat_map(|it| &mut it.chains).for_each(turn);
+        self.lane_drops.iter_mut().for_each(turn);
+        self.starts.iter_mut().for_each(|it| turn(&mut it.chain));
+        self.junctions.reverse_chains(turn);
+        self
+    }
+}

@@ -1,0 +1,137 @@
+//! From rules to junctions: where chains conflict, which has priority, where drivers stop, and what that leaves for
+//! lane changes and entrances.
+//!
+//! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zones.rs`), who has
+//! priority in each (`precedence.rs`), where drivers stop (`places.rs`), where they turn (`turning.rs`), and the
+//! signal programs (`lights.rs`). Who holds which zone is the simulator's.
+
+mod contact;
+mod kinship;
+mod lights;
+mod nearby;
+mod places;
+mod precedence;
+mod turning;
+mod zones;
+
+use crate::chain::{Beside, ChainIndex};
+use crate::junction::{
+    Crossing, Junctions, LightConflict, OnChain, Reach, Regulations, SignalPlan, ZoneIndex,
+};
+use crate::lanelet::Side;
+use crate::network::Network;
+use kinship::Kinship;
+
+/// On this length of a lane before a junction a change is too short [m]. Ours.
+const ROOM_TO_CHANGE: f64 = 15.0;
+/// Length of a lane outside of junctions where vehicles enter the map [m]: enough for the longest vehicle. Ours.
+const ROOM_TO_ENTER: f64 = 15.0;
+
+impl Network {
+    /// The same network with its junctions, at which `regulations` hold.
+    pub fn regulated(mut self, regulations: &Regulations) -> Network {
+        self.junctions = junctions(&self, regulations);
+        // Lanes that share a conflict area with others at the edge of the map get a conflict zone: vehicles enter in
+        // turns.
+        let is_at_the_edge = |crossing: Crossing| {
+            let Reach { chain, start, end } = *self.junctions.other_side(crossing);
+            let chain = self.chain(chain);
+            let begins = chain.previous.is_empty() && start < ROOM_TO_ENTER;
+            let ends = chain.following.is_empty() && end > chain.length - ROOM_TO_ENTER;
+            begins || ends
+        };
+        let is_free = |chain: &ChainIndex| {
+            let is_open = self.chain(*chain).is_open(0.0, false);
+            let near = self
+                .junctions
+                .for_cars(*chain)
+                .take_while(|it| self.junctions.reach(*it).start < ROOM_TO_ENTER);
+            is_open && near.into_iter().all(is_at_the_edge)
+        };
+        let mut entrances = self.entrances.clone();
+        entrances.iter_mut().for_each(|it| it.chains.retain(is_free));
+        entrances.retain(|it| !it.chains.is_empty());
+        self.entrances = entrances;
+        for index in 0..self.chains.len() {
+            for side in Side::BOTH {
+                let stretches = self.outside_of_junctions(ChainIndex(index as u32), side);
+                match side {
+                    Side::Left => self.chains[index].left = stretches,
+                    Side::Right => self.chains[index].right = stretches,
+                }
+            }
+        }
+        self
+    }
+
+    /// Which traffic lights conflict with each other.
+    pub fn light_conflicts(&self) -> Vec<LightConflict> {
+        lights::conflicts(self, &self.junctions).found
+    }
+
+    /// For each zone and each of its sides whether its drivers pass a light.
+    pub fn lit_sides(&self) -> Vec<[bool; 2]> {
+        lights::lit_sides(self, &self.junctions)
+    }
+
+    /// The same network with lights that follow these plans.
+    pub fn with_signals(mut self, plans: &[SignalPlan]) -> Network {
+        self.junctions.follow(plans);
+        self
+    }
+
+    /// The stretches of a chain on which a change to `side` is allowed and can end before the next junction.
+    fn outside_of_junctions(&self, index: ChainIndex, side: Side) -> Vec<Beside> {
+        let mut left = Vec::new();
+        let here = self.taken_on(index);
+        for stretch in self.chain(index).stretches(side) {
+            let there = self.taken_on(stretch.chain).into_iter();
+            let there = there.map(|extent| extent.map(|station| stretch.back(station)));
+            left.extend(stretch.without(here.iter().copied().chain(there).collect()));
+        }
+        left
+    }
+
+    /// Stretches of a chain without lane changes [m]: before and within junctions, including those right before its
+    /// start, and while it is still one lane with others that fork off.
+    fn taken_on(&self, index: ChainIndex) -> Vec<[f64; 2]> {
+        let chain = self.chain(index);
+        let before = chain.previous.iter().flat_map(|it| {
+            let length = self.chain(*it).length;
+            self.junctions.extents(*it).into_iter().map(move |extent| extent.map(|station| station - length))
+        });
+        let fork = (chain.fork_clearance > 0.0).then_some([0.0, chain.fork_clearance]);
+        let junctions = self.junctions.extents(index).into_iter().chain(before);
+        junctions.map(|[start, end]| [start - ROOM_TO_CHANGE, end]).chain(fork).collect()
+    }
+}
+
+/// The junctions of `network` under `regulations`. Lights without a program get one.
+fn junctions(network: &Network, regulations: &Regulations) -> Junctions {
+    let kinship = Kinship::of(network);
+    let contacts = contact::contacts(network);
+    let mut zones = zones::zones(&kinship, &contacts.of_pairs);
+    precedence::settle(network, &kinship, regulations, &mut zones);
+    let mut chains = vec![OnChain::EMPTY; network.chains.len()];
+    for (zone, index) in zones.iter().zip(0..) {
+        for (reach, side) in zone.sides.iter().zip(0..) {
+            chains[reach.chain.at()].crossings.push(Crossing { zone: ZoneIndex(index), side });
+        }
+    }
+    let start = |it: &Crossing| zones[it.zone.at()].sides[usize::from(it.side)].start;
+    for chain in &mut chains {
+        chain.crossings.sort_by(|a, b| start(a).total_cmp(&start(b)).then(a.zone.cmp(&b.zone)));
+    }
+    let comparisons = contacts.comparisons;
+    let mut junctions = Junctions { zones, chains, comparisons, ..Junctions::default() };
+    junctions.place_stops(network, regulations);
+    junctions.note_places();
+    junctions.look_beyond(network);
+    junctions.turns = turning::turns(network);
+    junctions.nearby = nearby::nearby(network, &contacts.of_pairs);
+    let (made, comparisons) = lights::made_plans(network, &junctions);
+    junctions.comparisons += comparisons;
+    junctions.follow(&made);
+    junctions.made = made;
+    junctions
+}

@@ -1,0 +1,81 @@
+//! The conflict zones of chains: contacts of two chains, put together.
+
+use super::contact::{Contact, LONGEST_VEHICLE, SAMPLE};
+use super::kinship::{Kinship, Meeting};
+use crate::chain::ChainIndex;
+use crate::junction::{Precedence, Reach, Touch, Zone, ZoneKind};
+
+/// Contacts further apart along a chain than this belong to different zones [m].
+const APART: f64 = 6.0;
+
+/// All zones of chains with these contacts, ordered by their chains.
+pub(super) fn zones(kinship: &Kinship, contacts: &[([ChainIndex; 2], Vec<Contact>)]) -> Vec<Zone> {
+    contacts.iter().flat_map(|(pair, contacts)| zones_of(kinship, *pair, contacts)).collect()
+}
+
+/// The zones of two chains with these contacts, which are in the order of the first chain's stations.
+fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> Vec<Zone> {
+    let touching = contacts.iter().filter_map(|it| Some((it, it.touch?)));
+    // Where one of two lanes begins or ends, the change between them has to stay possible: cars would not touch
+    // there.
+    let apart = touching.filter(|(it, touch)| {
+        let is_changed = *touch != Touch::Any && kinship.is_left_beside(pair, it.stations);
+        !is_changed && !kinship.is_one_behind_the_other(pair, it.stations)
+    });
+    let (beyond, usual): (Vec<_>, Vec<_>) = apart.partition(|(it, _)| it.is_beyond);
+    let mut groups: Vec<Vec<(&Contact, Touch)>> = Vec::new();
+    for contact in usual.into_iter().chain(beyond) {
+        let fits =
+            |group: &&mut Vec<(&Contact, Touch)>| {
+                group.iter().rev().take(32).any(|it| {
+                    (0..2).all(|side| (it.0.stations[side] - contact.0.stations[side]).abs() <= APART)
+                })
+            };
+        // In a crossing that is longer because of long vehicles beyond it, cars would wait without a reason: that
+        // part is a zone of its own.
+        let joins = |group: &&mut Vec<(&Contact, Touch)>| {
+            fits(group) && !(contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any))
+        };
+        match groups.iter_mut().find(joins) {
+            Some(group) => group.push(contact),
+            None => groups.push(vec![contact]),
+        }
+    }
+    groups.iter().filter_map(|group| zone_of(kinship, pair, group)).collect()
+}
+
+fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]) -> Option<Zone> {
+    let bounds = [0, 1].map(|side| {
+        let stations = group.iter().map(|it| it.0.stations[side]);
+        let low = stations.clone().fold(f64::INFINITY, f64::min);
+        [low - SAMPLE, stations.fold(0.0, f64::max) + SAMPLE]
+    });
+    let starts = bounds.map(|it| it[0]);
+    let ends = bounds.map(|it| it[1]);
+    let touch = group.iter().map(|it| it.1).min()?;
+    let kind = match kinship.meeting(pair, starts, ends) {
+        Meeting::Forks => return None,
+        Meeting::Merges(stations) => ZoneKind::Merging(stations),
+        Meeting::Shares => ZoneKind::Merging(ends.map(|it| it + LONGEST_VEHICLE)),
+        Meeting::Crosses if mostly(group, |it| it.is_along) => {
+            ZoneKind::Merging(ends.map(|it| it + LONGEST_VEHICLE))
+        }
+        Meeting::Crosses => ZoneKind::Crossing,
+    };
+    // Estimates are too coarse to distinguish two long vehicles from one where paths cross, or any from all where
+    // they lead into one.
+    let touch = match kind {
+        ZoneKind::Merging(_) if !mostly(group, |it| it.is_along) => Touch::Any,
+        ZoneKind::Crossing if !mostly(group, |it| it.is_road) => touch.min(Touch::OneLong),
+        _ => touch,
+    };
+    let reach = |side: usize| Reach { chain: pair[side], start: starts[side].max(0.0), end: ends[side] };
+    Some(Zone { kind, touch, sides: [reach(0), reach(1)], precedence: Precedence::Arrival })
+}
+
+/// Whether by far the most contacts are of a kind.
+fn mostly(group: &[(&Contact, Touch)], kind: impl Fn(&Contact) -> bool) -> bool {
+    const MOST: f64 = 0.8;
+    let found = group.iter().filter(|it| kind(it.0)).count();
+    found as f64 > MOST * group.len() as f64
+}
