@@ -49,8 +49,16 @@ pub use laneweave_generate as generate;
 pub use laneweave_maps as maps;
 pub use laneweave_models as models;
 pub use laneweave_network as network;
-pub use laneweave_recordings as recordings;
 pub use laneweave_study as study;
+
+/// Recorded traffic: read, cleaned, matched to the map, and as its drivers see it; simulated traffic as a drone records
+/// it.
+pub mod recordings {
+    #[doc(inline)]
+    pub use laneweave_recorded::*;
+    #[doc(inline)]
+    pub use laneweave_recordings::*;
+}
 
 /// Scenarios as plain data, and what they are read from.
 pub mod scenario {

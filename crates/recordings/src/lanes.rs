@@ -9,13 +9,13 @@ const CELL: f64 = 10.0;
 
 /// The position of a point relative to a lanelet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Foot {
+pub struct Foot {
     /// Along the centre line [m], not beyond its ends.
-    pub(crate) station: f64,
+    pub station: f64,
     /// Distance to the left of the centre line, which is prolonged at its ends [m].
-    pub(crate) offset: f64,
+    pub offset: f64,
     /// Beyond its ends [m].
-    pub(crate) beyond: f64,
+    pub beyond: f64,
 }
 
 /// The segments of all centre lines in a grid.
@@ -65,7 +65,7 @@ impl<'a> Lanes<'a> {
 }
 
 /// The position of `point` relative to `lanelet`.
-pub(crate) fn foot(lanelet: &Lanelet, point: &Point) -> Option<Foot> {
+pub fn foot(lanelet: &Lanelet, point: &Point) -> Option<Foot> {
     nearest(lanelet, segments(lanelet).map(|(segment, ..)| segment), point)
 }
 

@@ -3,7 +3,7 @@
 //! The most likely path through the lanelets around (Viterbi). A distance from the middle of a lane and an angle to
 //! it cost per second. A lane change costs a little. A move without a link costs much.
 
-use laneweave_network::{Lanelet, LaneletIndex, Network, Point};
+use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Side};
 
 use crate::lanes::Lanes;
 use crate::moves::{Move, Moves};
@@ -80,6 +80,11 @@ impl<'a> Matched<'a> {
         let matcher = Matcher { lanelets: &network.lanelets, lanes, moves: &moves, step: recording.step };
         let places = recording.tracks.iter().map(|it| matcher.places(it)).collect();
         Matched { network, recording, places, moves }
+    }
+
+    /// The lanelets beside `lanelet` on a side, whether or not the graph permits changes to them.
+    pub fn beside(&self, lanelet: LaneletIndex, side: Side) -> impl Iterator<Item = LaneletIndex> {
+        self.moves.beside(lanelet).iter().filter(move |it| it.change.side == side).map(|it| it.lanelet)
     }
 
     /// The vehicles in `frame` that have a position, by lanelet, in each lanelet from the last to the first in

@@ -1,6 +1,5 @@
 //! Recorded traffic as plain data.
 
-use laneweave_sim::Class;
 use serde::Deserialize;
 
 /// Recorded traffic in the metric frame of its map.
@@ -94,16 +93,6 @@ impl RoadUser {
             RoadUser::Bicycle => "bicycle",
             RoadUser::Pedestrian => "pedestrian",
             RoadUser::Other => "other",
-        }
-    }
-
-    /// The class of vehicles whose drivers drive like this road user. Those that are no vehicles count as cars.
-    pub fn class(self) -> Class {
-        match self {
-            RoadUser::Truck => Class::Truck,
-            RoadUser::Bus => Class::Bus,
-            RoadUser::Motorcycle => Class::Motorcycle,
-            _ => Class::Car,
         }
     }
 

@@ -62,8 +62,9 @@ pub fn extents(matched: &Matched<'_>, changes: &[LaneChange]) -> Vec<Extent> {
         .collect()
 }
 
-/// Number of the last state that is matched to the old lane; it may be a little before or after the crossing.
-pub(crate) fn last_before(matched: &Matched<'_>, change: &LaneChange) -> Option<usize> {
+/// Number of the last state that is matched to the old lane of `change`; it may be a little before or after the
+/// crossing.
+pub fn last_before(matched: &Matched<'_>, change: &LaneChange) -> Option<usize> {
     let (states, places) = (&matched.recording.tracks[change.track].states, &matched.places[change.track]);
     let is_in = |place: &Option<Place>, lanelet| place.is_some_and(|it| it.lanelet == lanelet);
     let pairs = places.windows(2).enumerate();

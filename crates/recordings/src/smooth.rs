@@ -7,22 +7,25 @@ const MAXIMUM_STATES: usize = 50;
 
 /// A smooth motion at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Motion {
-    /// Position [m].
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    /// Velocity [m/s]; zero if there is only one state.
-    pub(crate) vx: f64,
-    pub(crate) vy: f64,
+pub struct Motion {
+    /// Position, east [m].
+    pub x: f64,
+    /// Position, north [m].
+    pub y: f64,
+    /// Velocity to the east [m/s]; zero if there is only one state.
+    pub vx: f64,
+    /// Velocity to the north [m/s]; zero if there is only one state.
+    pub vy: f64,
 }
 
 impl Motion {
-    pub(crate) fn speed(&self) -> f64 {
+    /// Speed [m/s].
+    pub fn speed(&self) -> f64 {
         (self.vx * self.vx + self.vy * self.vy).sqrt()
     }
 
     /// Direction, counter-clockwise from east [rad].
-    pub(crate) fn heading(&self) -> f64 {
+    pub fn heading(&self) -> f64 {
         self.vy.atan2(self.vx)
     }
 }
@@ -33,7 +36,7 @@ pub(crate) fn elapsed(a: &State, b: &State, step: f64) -> f64 {
 }
 
 /// The motion at `states[at]`, by the positions up to `reach` [s] before and after.
-pub(crate) fn motion(states: &[State], at: usize, reach: f64, step: f64) -> Motion {
+pub fn motion(states: &[State], at: usize, reach: f64, step: f64) -> Motion {
     let around = window(states, at, reach, step);
     let (x, vx) = line(around, &states[at], step, |it| it.x);
     let (y, vy) = line(around, &states[at], step, |it| it.y);
@@ -41,12 +44,12 @@ pub(crate) fn motion(states: &[State], at: usize, reach: f64, step: f64) -> Moti
 }
 
 /// Speed at `states[at]` [m/s], by the speeds up to `reach` [s] before and after.
-pub(crate) fn speed(states: &[State], at: usize, reach: f64, step: f64) -> f64 {
+pub fn speed(states: &[State], at: usize, reach: f64, step: f64) -> f64 {
     line(window(states, at, reach, step), &states[at], step, |it| it.speed).0
 }
 
 /// Acceleration at `states[at]` [m/s²], by the speeds up to `reach` [s] before and after.
-pub(crate) fn acceleration(states: &[State], at: usize, reach: f64, step: f64) -> f64 {
+pub fn acceleration(states: &[State], at: usize, reach: f64, step: f64) -> f64 {
     line(window(states, at, reach, step), &states[at], step, |it| it.speed).1
 }
 

@@ -7,7 +7,8 @@
 
 use laneweave_models::change::Driver;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
-use laneweave_recordings::{Matched, Replay, allowed};
+use laneweave_recorded::{Replay, allowed};
+use laneweave_recordings::Matched;
 use laneweave_sim::driver_of;
 
 use super::in_view::InView;

@@ -11,9 +11,8 @@ mod spells;
 use laneweave_models::Style;
 use laneweave_models::change::{LaneChangeModel, Mcdm};
 use laneweave_network::Side;
-use laneweave_recordings::{
-    Assumed, Extent, Frame, LaneChange, Matched, Replay, ReplayError, extents, lane_changes,
-};
+use laneweave_recorded::{Assumed, Frame, Replay, ReplayError};
+use laneweave_recordings::{Extent, LaneChange, Matched, extents, lane_changes};
 use laneweave_sim::Navigator;
 use rayon::prelude::*;
 

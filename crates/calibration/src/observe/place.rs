@@ -4,7 +4,7 @@
 //! What is known is where a driver is: in which lane, how far before the next fork, and to which side it would change.
 
 use laneweave_network::{Network, Side};
-use laneweave_recordings::Frame;
+use laneweave_recorded::Frame;
 
 /// A place with a side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,6 +1,6 @@
 //! What watches the traffic of a simulation: after every step it is shown what happened.
 
-use laneweave_recordings::Watch;
+use laneweave_recorded::Watch;
 use laneweave_results::output::{Boxes, ShortTrips, Traces};
 use laneweave_sim::World;
 

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
-const LEVELS: [&[&str]; 11] = [
+const LEVELS: [&[&str]; 12] = [
     &["network", "models", "study", "test-data"],
     &["maps", "sim"],
     &["generate", "recordings"],
+    &["recorded"],
     &["calibration"],
     &["scenario"],
     &["results"],

@@ -6,7 +6,6 @@ mod bad_calls;
 mod capacity;
 mod checkpoint;
 mod crates;
-mod damaged_recordings;
 mod door;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;
@@ -17,8 +16,6 @@ mod house;
 mod incidents;
 mod lane_drop;
 mod null_model_control;
-mod recorded_scenes;
-mod replay;
 mod simulated;
 mod simulation;
 mod styles;

@@ -15,7 +15,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use laneweave_network::{LaneletIndex, Position};
-use laneweave_recordings::{Matched, Recording, TurningShares, clean};
+use laneweave_recorded::TurningShares;
+use laneweave_recordings::{Matched, Recording, clean};
 use laneweave_sim::{Purpose, Random, VehicleId, World};
 
 use crate::fault::Fault;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use laneweave_recorded::class_of;
 use laneweave_recordings::{Recording, State, Track, resampled};
 use laneweave_sim::{Class, Control, RecordedPose, RecordedVehicle};
 
@@ -107,7 +108,7 @@ fn part(track: &Track, states: &[State], is_reactive: bool, dt: f64) -> Part {
     let sound = |value: f64, usual: f64, most: f64| if (0.1..=most).contains(&value) { value } else { usual };
     Part {
         recorded: track.id,
-        class: track.class.class(),
+        class: class_of(track.class),
         size: [sound(track.length, length, 30.0), sound(track.width, width, 4.0)],
         first_step: states[0].frame as u32,
         poses,

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use laneweave::sim::Navigator;
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_recordings::{Assumed, Evidence, Exposure, LaneChange, Matched, Replay, extents};
+use laneweave_recorded::{Assumed, Evidence, Exposure, Replay};
+use laneweave_recordings::{LaneChange, Matched, extents};
 use laneweave_scenario::style::Population;
 use serde::Serialize;
 

@@ -1,7 +1,8 @@
 //! Weights without what errors of the recorded positions do to them.
 
 use laneweave_calibration::{Asked, Estimate, MULTIPLES, Study, extrapolated};
-use laneweave_recordings::{Drone, clean};
+use laneweave_recorded::Drone;
+use laneweave_recordings::clean;
 use laneweave_scenario::Fault;
 use serde::Serialize;
 

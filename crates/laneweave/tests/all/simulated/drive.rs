@@ -6,7 +6,8 @@ use laneweave::style::Population;
 use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Side};
-use laneweave_recordings::{Drone, Recording, Watch};
+use laneweave_recorded::{Drone, Watch};
+use laneweave_recordings::Recording;
 use laneweave_sim::{Demand, Event, Place, Rate, Setup, Vehicle, World, perceive};
 
 use crate::simulated::view::View;

@@ -4,7 +4,8 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use laneweave_recordings::{Drone, LaneChange, Matched, Recording, Watch, clean, lane_changes, open};
+use laneweave_recorded::{Drone, Watch};
+use laneweave_recordings::{LaneChange, Matched, Recording, clean, lane_changes, open};
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 
 use laneweave_network::Network;

@@ -12,10 +12,8 @@ use std::collections::{BTreeMap, HashSet};
 use std::sync::LazyLock;
 
 use drive::{Made, STEP, Stand, Truth, drive};
-use laneweave_recordings::{
-    Assumed, Evidence, Frame, LaneChange, Matched, Recording, Replay, clean, extents, interaction,
-    lane_changes,
-};
+use laneweave_recorded::{Assumed, Evidence, Frame, Replay};
+use laneweave_recordings::{LaneChange, Matched, Recording, clean, extents, interaction, lane_changes};
 use laneweave_sim::Navigator;
 use view::View;
 

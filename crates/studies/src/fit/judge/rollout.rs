@@ -5,7 +5,8 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use laneweave::Simulation;
-use laneweave_recordings::{Drone, Recording, clean};
+use laneweave_recorded::Drone;
+use laneweave_recordings::{Recording, clean};
 use laneweave_scenario::scenario::{MapOptions, Origin, Replay, Scenario};
 use laneweave_scenario::{Fault, Player, Recorded};
 

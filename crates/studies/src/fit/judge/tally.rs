@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
 use laneweave_network::{ChainIndex, LaneletIndex, Network, Position, Side};
+use laneweave_recorded::{Assumed, Replay};
 use laneweave_recordings::{
-    Assumed, Extent, LaneChange, Matched, Place, RecordedChangeKind, Recording, Replay, extents, lane_changes,
+    Extent, LaneChange, Matched, Place, RecordedChangeKind, Recording, extents, lane_changes,
 };
 use laneweave_scenario::Fault;
 use laneweave_study::units::METRES_PER_KM;

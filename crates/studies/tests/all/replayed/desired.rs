@@ -5,7 +5,8 @@ use laneweave::models::Style;
 use laneweave::scenario::Origin as Files;
 use laneweave::sim::Navigator;
 use laneweave_calibration::observe::{Options, Origin, observe};
-use laneweave_recordings::{Drone, Matched, clean};
+use laneweave_recorded::Drone;
+use laneweave_recordings::{Matched, clean};
 
 use crate::replayed::set_up::of_style;
 

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use laneweave::Simulation;
 use laneweave::scenario::{Origin, Replay, Scenario};
-use laneweave_recordings::{Drone, Recording, interaction};
+use laneweave_recorded::Drone;
+use laneweave_recordings::{Recording, interaction};
 use laneweave_studies::replay;
 use laneweave_test_data::{data, map};
 

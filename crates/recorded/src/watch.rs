@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use laneweave_recordings::{Recording, RoadUser, State, Track};
 use laneweave_sim::{Class, VehicleId, World};
-
-use crate::recording::{Recording, RoadUser, State, Track};
 
 /// Notes the vehicles of a simulation at every step. A step is a frame.
 #[derive(Clone, Debug)]

@@ -1,18 +1,13 @@
 //! The virtual drone: one operator that turns traffic that is known exactly into a recording as a drone would make it.
 //! What is compared with a recording, or tests how well something is recovered from one, goes through it.
 //!
-//! A [`Watch`] notes simulated vehicles at every step. A [`Drone`] sees of them what lies in its field of view, at its
+//! A [`Watch`](crate::Watch) notes simulated vehicles at every step. A [`Drone`] sees of them what lies in its field of view, at its
 //! own frame rate, with errors of position, and it loses vehicles at times. Speeds and headings are those of a tracker:
 //! a straight line is fitted by least squares to the noisy positions half a second before and after.
 
-mod watch;
-
+use laneweave_recordings::smooth::motion;
+use laneweave_recordings::{Recording, State, Track, resampled};
 use laneweave_sim::{Purpose, Random};
-
-use crate::recording::{Recording, State, Track};
-use crate::resample::resampled;
-use crate::smooth::motion;
-pub use watch::Watch;
 
 /// Positions this long before and after a moment give its speed and heading [s].
 const REACH: f64 = 0.5;

@@ -3,11 +3,10 @@
 use std::collections::HashMap;
 
 use laneweave_network::{ChainIndex, Position, Side};
+use laneweave_recordings::{Extent, LaneChange, Matched, extents, last_before};
 use laneweave_sim::{Class, Destination, Navigator};
 
-use crate::changes::LaneChange;
-use crate::matching::Matched;
-use crate::sideways::{Extent, extents, last_before};
+use crate::class::class_of;
 
 /// Assumptions about a recorded driver that no recording shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +27,7 @@ impl Assumed {
     /// estimate is too low.
     pub fn by_its_speeds(matched: &Matched<'_>, track: usize, parameters: u32) -> Assumed {
         let (track, places) = (&matched.recording.tracks[track], &matched.places[track]);
-        let class = track.class.class();
+        let class = class_of(track.class);
         let mut factors: Vec<f64> = track
             .states
             .iter()
@@ -97,7 +96,7 @@ pub(crate) fn drivers(
         }
         drivers.push(Driver {
             assumed: assume(index),
-            class: track.class.class(),
+            class: class_of(track.class),
             destination: goals.get(&track.id).copied().flatten(),
             chains,
             changes: Vec::new(),

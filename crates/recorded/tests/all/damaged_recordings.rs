@@ -1,16 +1,13 @@
 //! Reading, cleaning, matching and perceiving do not panic, whatever the bytes.
 
-use std::sync::LazyLock;
-
-use laneweave::style::Population;
 use laneweave_generate::{Motorway, motorway};
-use laneweave_models::Style;
 use laneweave_network::{Network, Side};
-use laneweave_recordings::{
-    Assumed, Matched, Recording, Replay, RoadUser, State, Track, clean, interaction, lane_changes,
-};
+use laneweave_recorded::{Assumed, Replay};
+use laneweave_recordings::{Matched, Recording, RoadUser, State, Track, clean, interaction, lane_changes};
 use laneweave_sim::Navigator;
 use proptest::prelude::*;
+
+use crate::drivers::usual;
 
 fn small_file() -> String {
     let mut text = String::from("track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_rad,length,width\n");
@@ -22,9 +19,6 @@ fn small_file() -> String {
     }
     text
 }
-
-static CHARACTERS: LazyLock<Vec<Style>> =
-    LazyLock::new(|| Population::usual(1).expect("built-in styles").driver_parameters);
 
 fn use_it(recording: Recording) {
     let road = Motorway { lanes: 2, length_m: 100.0, ..Motorway::default() };
@@ -47,8 +41,9 @@ fn perceive(network: &Network, recording: &Recording) {
     let matched = Matched::new(network, recording);
     let navigator = Navigator::new(network);
     let assume = |track| Assumed::by_its_speeds(&matched, track, 0);
-    let changes = lane_changes(&matched);
-    let replay = Replay::new(&matched, &changes, &navigator, &CHARACTERS, assume).expect("they are drivers");
+    let (changes, driver_parameters) = (lane_changes(&matched), [usual()]);
+    let replay =
+        Replay::new(&matched, &changes, &navigator, &driver_parameters, assume).expect("they are drivers");
     for number in -1..13 {
         let frame = replay.frame(number);
         for vehicle in frame.vehicles() {

@@ -3,11 +3,9 @@
 use std::collections::BTreeMap;
 
 use laneweave_network::LaneletIndex;
+use laneweave_recordings::{Extent, LaneChange, Matched};
 
-use crate::changes::LaneChange;
-use crate::matching::Matched;
 use crate::replay::Replay;
-use crate::sideways::Extent;
 
 const METRES_PER_KM: f64 = 1000.0;
 const SECONDS_PER_HOUR: f64 = 3600.0;

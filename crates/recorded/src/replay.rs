@@ -9,14 +9,11 @@
 use laneweave_models::Style;
 use laneweave_models::change::Situation;
 use laneweave_network::{LaneletIndex, Point, Position, Side};
+use laneweave_recordings::{Foot, LaneChange, Matched, foot, smooth};
 use laneweave_sim::{Across, Navigator, Scene, Seen, Snapshot, Spot, VehicleId, perceive};
 use thiserror::Error;
 
-use crate::changes::LaneChange;
 use crate::drivers::{Assumed, Driver, allowed, drivers, easiest};
-use crate::lanes::{self, Foot};
-use crate::matching::Matched;
-use crate::smooth;
 
 /// Positions and speeds are smoothed over this time before and after [s].
 const REACH: f64 = 0.25;
@@ -118,7 +115,7 @@ impl<'a> Replay<'a> {
         let motion = smooth::motion(&track.states, at, REACH, step);
         let centre = Point::new(motion.x, motion.y, 0.0);
         let half = 0.5 * track.length;
-        let foot = lanes::foot(&self.matched.network.lanelets[lanelet.at()], &centre)?;
+        let foot = foot(&self.matched.network.lanelets[lanelet.at()], &centre)?;
         let Position { chain, x } = self.onward(driver, at, self.front(lanelet, &foot, half)?)?;
         let time = track.states[at].frame as f64 * step;
         let change = driver.changes.iter().find_map(|it| {
@@ -178,9 +175,8 @@ impl<'a> Replay<'a> {
 
     /// The lanelet on `side` of `lanelet`, and the position of `centre` along it.
     fn beside(&self, lanelet: LaneletIndex, side: Side, centre: &Point) -> Option<(LaneletIndex, Foot)> {
-        let beside = self.matched.moves.beside(lanelet).iter().filter(|it| it.change.side == side);
-        let foot = |it: LaneletIndex| lanes::foot(&self.matched.network.lanelets[it.at()], centre);
-        let feet = beside.filter_map(|it| Some((it.lanelet, foot(it.lanelet)?)));
+        let foot = |it: LaneletIndex| foot(&self.matched.network.lanelets[it.at()], centre);
+        let feet = self.matched.beside(lanelet, side).filter_map(|it| Some((it, foot(it)?)));
         feet.min_by(|a, b| a.1.beyond.total_cmp(&b.1.beyond))
     }
 }

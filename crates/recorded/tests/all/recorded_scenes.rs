@@ -2,12 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use laneweave::style::Population;
 use laneweave_maps::{Map, ReadOptions, load};
 use laneweave_network::Side;
-use laneweave_recordings::{Assumed, Matched, Replay, clean, interaction, lane_changes};
+use laneweave_recorded::{Assumed, Replay};
+use laneweave_recordings::{Matched, clean, interaction, lane_changes};
 use laneweave_sim::{Navigator, Waypoint};
 use laneweave_test_data::data;
+
+use crate::drivers::usual;
 
 #[test]
 fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
@@ -20,7 +22,7 @@ fn the_drivers_of_a_real_road_perceive_what_is_around_them() {
     let matched = Matched::new(&network, &recording);
     let changes = lane_changes(&matched);
     let navigator = Navigator::new(&network);
-    let driver_parameters = Population::usual(1).expect("built-in styles").driver_parameters;
+    let driver_parameters = [usual()];
     let assume = |track| Assumed::by_its_speeds(&matched, track, 0);
     let replay =
         Replay::new(&matched, &changes, &navigator, &driver_parameters, assume).expect("they are drivers");

@@ -1,14 +1,13 @@
 //! Frames of small recordings as scenes: the positions of vehicles, and the knowledge of drivers.
 
-use laneweave::style::Population;
 use laneweave_generate::{Motorway, motorway};
-use laneweave_models::Style;
 use laneweave_models::lateral::moved_share;
 use laneweave_network::{ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Side};
-use laneweave_recordings::{
-    Assumed, Extent, Matched, Recording, Replay, ReplayError, RoadUser, State, Track, extents, lane_changes,
-};
+use laneweave_recorded::{Assumed, Replay, ReplayError};
+use laneweave_recordings::{Extent, Matched, Recording, RoadUser, State, Track, extents, lane_changes};
 use laneweave_sim::{Navigator, Phase};
+
+use crate::drivers::usual;
 
 /// Time between frames [s].
 const STEP: f64 = 0.04;
@@ -31,10 +30,6 @@ fn car(id: i64, x: f64, speed: f64, seconds: f64, aside: impl Fn(f64) -> f64) ->
     Track { id, class: RoadUser::Car, length: 4.5, width: 1.8, states: states.collect() }
 }
 
-fn driver_parameters() -> Vec<Style> {
-    Population::usual(1).expect("built-in styles").driver_parameters
-}
-
 fn assumed(_: usize) -> Assumed {
     Assumed { parameters: 0, speed_factor: 0.9 }
 }
@@ -43,7 +38,7 @@ fn assumed(_: usize) -> Assumed {
 fn replay(network: &Network, tracks: Vec<Track>, look: impl FnOnce(&Replay)) {
     let recording = Recording { step: STEP, tracks };
     let matched = Matched::new(network, &recording);
-    let (navigator, driver_parameters) = (Navigator::new(network), driver_parameters());
+    let (navigator, driver_parameters) = (Navigator::new(network), [usual()]);
     let changes = lane_changes(&matched);
     look(
         &Replay::new(&matched, &changes, &navigator, &driver_parameters, assumed).expect("they are drivers"),
@@ -245,7 +240,7 @@ fn impossible_drivers_are_refused() {
     let network = road(1000.0, Vec::new());
     let recording = Recording { step: STEP, tracks: vec![car(7, 100.0, 20.0, 3.0, |_| SLOW)] };
     let matched = Matched::new(&network, &recording);
-    let (navigator, driver_parameters) = (Navigator::new(&network), driver_parameters());
+    let (navigator, driver_parameters) = (Navigator::new(&network), [usual()]);
     let refusal = |parameters, speed_factor| {
         let assume = |_| Assumed { parameters, speed_factor };
         Replay::new(&matched, &[], &navigator, &driver_parameters, assume).err()

@@ -7,10 +7,10 @@
 use std::collections::{BTreeSet, HashMap};
 
 use laneweave_network::{LaneletIndex, Position};
+use laneweave_recordings::Matched;
 use laneweave_sim::{Destination, Navigator};
 
 use crate::drivers::easiest;
-use crate::matching::Matched;
 
 /// A track that ended longer ago than this and a frame has ended: cleaning bridges shorter interruptions [s].
 const GONE: f64 = 1.0;
