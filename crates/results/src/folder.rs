@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use laneweave_scenario::Fault;
 
 /// Every file name of the results of a run, in the order of removal: a run without a summary has not ended.
-pub const RESULTS: [&str; 26] = [
+pub const RESULTS: &[&str] = &[
     "summary.json",
     CHECKPOINT,
     PAGES,

@@ -74,7 +74,7 @@ pub fn clear(claim: &Claim) -> Result<(), Fault> {
         // Other files stay, and the folder with them.
         let _ = fs::remove_dir(&branch);
     }
-    claim.clear(&RESULTS)?;
+    claim.clear(RESULTS)?;
     claim.clear(&[SCENARIO])
 }
 

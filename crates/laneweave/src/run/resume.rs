@@ -70,6 +70,6 @@ pub fn resume(scenario: &Scenario, origin: &Origin) -> Result<Resumed, Fault> {
         return Err(Fault::new(dir.display(), what, "run the program again"));
     }
     let simulation = Simulation::from_scenario(scenario, origin)?;
-    claim.clear(if from.is_some() { &[SUMMARY] } else { &RESULTS })?;
+    claim.clear(if from.is_some() { &[SUMMARY] } else { RESULTS })?;
     Ok(Resumed::Run(Box::new(Run::new(simulation, provenance, from, claim))))
 }
