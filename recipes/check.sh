@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Whether the recipes still hold: each patch applies to the tree as it is, is formatted, builds without a warning, and the
-# lines of its head that begin with `$` succeed. The tree is what git has, with changes that are not committed yet; new
-# files have to be added first (`git add`).
+# Whether the recipes still hold. Each patch is applied to a clean copy of the tree, is formatted, builds without a warning,
+# and the lines of its head that begin with `$` succeed. At the end all patches are applied together, and build. The tree is
+# what git has, with changes that are not committed yet; new files have to be added first (`git add`).
 #
-#     recipes/check.sh                  all recipes: each is applied alone, then all together are built and tried
+#     recipes/check.sh                  all recipes
 #     recipes/check.sh incentive …      these recipes
 #     recipes/check.sh --renew NAME     writes NAME.patch anew from the changes of the working tree, and keeps its head
 #
@@ -18,6 +18,7 @@ if [ "${1:-}" = --renew ]; then
     head=$(sed '/^diff --git /Q' "$patch")
     git add --intent-to-add -- . ':!recipes'
     changes=$(git diff -- . ':!recipes')
+    git reset -q
     printf '%s\n\n%s\n' "$head" "$changes" > "$patch"
     exit
 fi
@@ -32,7 +33,8 @@ for name in "${names[@]}"; do
     [ -f "recipes/$name.patch" ] || fail "$name" "there is no recipes/$name.patch"
 done
 
-# A copy elsewhere: inside of a repository, git would leave out what it applies.
+# The copy is a repository of its own. So it is made clean again without touching files that did not change, and only
+# what a recipe changes is built anew.
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 commit=$(git stash create)
@@ -41,22 +43,35 @@ git archive "${commit:-HEAD}" | tar -x -m -C "$copy"
 sed -i '/^\[workspace.package\]/,/^\[/ s/^version = "\([^"]*\)"/version = "\1+recipes"/' "$copy/Cargo.toml"
 
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
-cd "$copy"
-for name in "${names[@]}"; do
-    git apply --check "$root/recipes/$name.patch" || fail "$name" "its patch does not apply"
-done
-for name in "${names[@]}"; do
-    git apply "$root/recipes/$name.patch" || fail "$name" "its patch does not apply together with the others"
-    cargo fmt --all --check || fail "$name" "it is not formatted"
-done
-
-cargo build --offline -p laneweave-cli 2>&1 | tee build.log || fail "${names[*]}" "they do not build"
-if grep -q '^warning' build.log; then fail "${names[*]}" "a warning above"; fi
 PATH=$CARGO_TARGET_DIR/debug:$PATH
+cd "$copy"
+cargo metadata --offline --format-version 1 >/dev/null
+git init --quiet
+git add --force --all
+git -c user.name=recipes -c user.email=recipes@localhost commit --quiet --message "as it is"
+
+apply() { git apply "$root/recipes/$1.patch" || fail "$1" "its patch does not apply"; }
+
+build() {
+    local log
+    log=$(mktemp)
+    cargo build --locked --offline -p laneweave-cli 2>&1 | tee "$log" || fail "$1" "it does not build"
+    ! grep -q '^warning' "$log" || fail "$1" "a warning above"
+    rm "$log"
+}
+
 for name in "${names[@]}"; do
     printf '\n== recipe %s (after %d s)\n' "$name" "$SECONDS"
-    rm -rf out
-    sed -n '/^diff --git /q; s/^ *\$ //p' "$root/recipes/$name.patch" > commands.sh
-    bash -euxo pipefail commands.sh || fail "$name" "a command of its head fails"
+    apply "$name"
+    cargo fmt --all --check || fail "$name" "it is not formatted"
+    build "$name"
+    bash -euxo pipefail <(sed -n '/^diff --git /q; s/^ *\$ //p' "$root/recipes/$name.patch") ||
+        fail "$name" "a command of its head fails"
+    git reset --quiet --hard
+    git clean --quiet --force -d -x
 done
+
+printf '\n== all of them together (after %d s)\n' "$SECONDS"
+for name in "${names[@]}"; do apply "$name"; done
+build "${names[*]}"
 echo "recipes hold: ${names[*]} (after $SECONDS s)"
