@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether the recipes still hold. Each patch is applied to a clean copy of the tree, is formatted, builds without a warning,
-# and the lines of its head that begin with `$` succeed. At the end all patches are applied together, and build. The tree is
-# what git has, with changes that are not committed yet; new files have to be added first (`git add`).
+# and the lines of its head that begin with `$` succeed. The tree is what git has, with changes that are not committed yet;
+# new files have to be added first (`git add`).
 #
 #     recipes/check.sh                  all recipes
 #     recipes/check.sh incentive …      these recipes
@@ -50,28 +50,16 @@ git init --quiet
 git add --force --all
 git -c user.name=recipes -c user.email=recipes@localhost commit --quiet --message "as it is"
 
-apply() { git apply "$root/recipes/$1.patch" || fail "$1" "its patch does not apply"; }
-
-build() {
-    local log
-    log=$(mktemp)
-    cargo build --locked --offline -p laneweave-cli 2>&1 | tee "$log" || fail "$1" "it does not build"
-    ! grep -q '^warning' "$log" || fail "$1" "a warning above"
-    rm "$log"
-}
-
 for name in "${names[@]}"; do
     printf '\n== recipe %s (after %d s)\n' "$name" "$SECONDS"
-    apply "$name"
+    git apply "$root/recipes/$name.patch" || fail "$name" "its patch does not apply"
     cargo fmt --all --check || fail "$name" "it is not formatted"
-    build "$name"
+    cargo build --locked --offline -p laneweave-cli 2>&1 | tee build.log || fail "$name" "it does not build"
+    ! grep -q '^warning' build.log || fail "$name" "a warning above"
     bash -euxo pipefail <(sed -n '/^diff --git /q; s/^ *\$ //p' "$root/recipes/$name.patch") ||
         fail "$name" "a command of its head fails"
     git reset --quiet --hard
     git clean --quiet --force -d -x
 done
 
-printf '\n== all of them together (after %d s)\n' "$SECONDS"
-for name in "${names[@]}"; do apply "$name"; done
-build "${names[*]}"
 echo "recipes hold: ${names[*]} (after $SECONDS s)"
