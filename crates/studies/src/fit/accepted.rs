@@ -5,9 +5,8 @@ use laneweave_models::Style;
 use laneweave_models::change::deceleration_to_avoid;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_study::quantile;
-use serde::Serialize;
 
-use super::style::ENOUGH;
+use super::report::{ENOUGH, GapLimits};
 
 /// Share of the recorded gaps that each limit may refuse (ours).
 const REFUSED: f64 = 0.05;
@@ -25,17 +24,6 @@ pub(super) struct Accepted {
     pub(super) lead: Vec<[f64; 3]>,
     /// To the new follower.
     pub(super) lag: Vec<[f64; 3]>,
-}
-
-/// The limits of the gap test of a style.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct GapLimits {
-    /// Smallest gap [m].
-    pub min_gap_m: f64,
-    /// Smallest time to collision [s].
-    pub min_time_to_collision_s: f64,
-    /// Hardest braking that a change may force [m/s²].
-    pub max_deceleration_mps2: f64,
 }
 
 impl Accepted {

@@ -4,10 +4,10 @@ use laneweave_calibration::{Asked, Estimate, MULTIPLES, Study, extrapolated};
 use laneweave_recorded::Drone;
 use laneweave_recordings::clean;
 use laneweave_scenario::Fault;
-use serde::Serialize;
 
 use super::Observed;
-use super::report::{WeightReport, weights};
+use super::found::weights;
+use super::report::Correction;
 use super::sources::{Part, Sources};
 
 /// Recordings with more errors are made so often for each multiple of the variance (ours).
@@ -15,15 +15,6 @@ const REPEATS: u64 = 4;
 
 /// Added to the seed: keeps the added errors independent of those of `observe`.
 const OWN_SEEDS: u64 = 0x6f75_7273_0000_0000;
-
-/// A correction for errors of positions.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Correction {
-    /// Standard deviation of the errors along each axis [m].
-    pub position_error_m: f64,
-    /// The weights without the correction.
-    pub uncorrected: Vec<WeightReport>,
-}
 
 impl Observed {
     /// The study with the weights as they would be without errors of positions, if their size is known: by

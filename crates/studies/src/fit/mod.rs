@@ -5,6 +5,7 @@
 
 mod accepted;
 mod correct;
+mod found;
 mod judge;
 #[cfg(feature = "reports")]
 mod page;
@@ -27,15 +28,16 @@ use laneweave_scenario::style::{StyleTemplate, find};
 
 use sources::Sources;
 
-pub use accepted::GapLimits;
-pub use correct::Correction;
 pub use judge::{Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
 #[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};
 pub use plan::{ExpectedWeight, Plan};
 pub use prediction::{Elsewhere, HeldOut, Predictive};
-pub use report::{BetaReport, ByPaper, ClassReport, FitReport, Spread, WeightReport, WithLead};
-pub use style::{FITTED, FittedStyle};
+pub use report::{
+    BetaReport, ByPaper, ClassReport, Correction, FitReport, FittedStyle, GapLimits, Spread, WeightReport,
+    WithLead,
+};
+pub use style::FITTED;
 
 /// Times before the crossing at which changes may begin, for comparison [s].
 const LEADS: [f64; 3] = [1.5, 2.5, 3.5];

@@ -3,9 +3,10 @@
 use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
 use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
+use super::found::by_paper_terms;
 use super::judge;
 use super::prediction::HeldOut;
-use super::report::{FitReport, Spread, by_paper_terms};
+use super::report::{FitReport, Spread};
 use super::words::{correction, with_interval};
 
 /// The report of a fit to the recordings with these names, made by `command`.

@@ -10,22 +10,10 @@ use laneweave_study::middle_95;
 use toml::{Table, Value};
 
 use super::Observed;
-use super::report::{ClassReport, FitReport, Spread, WeightReport};
+use super::report::{ClassReport, ENOUGH, FitReport, FittedStyle, Spread, WeightReport};
 
 /// The name of the fitted style; those of several classes have a number, too: `fitted-1`.
 pub const FITTED: &str = "fitted";
-
-/// A fitted style.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FittedStyle {
-    /// Its name.
-    pub name: String,
-    /// Its file.
-    pub text: String,
-}
-
-/// Durations and desired speeds are taken from a recording that shows at least so many (ours).
-pub(super) const ENOUGH: usize = 10;
 
 /// The classes of drivers, and their styles.
 pub(super) fn styles(

@@ -2,16 +2,18 @@
 
 use std::fmt::Write;
 
-use super::correct::Correction;
+use super::found::by_paper_terms;
 use super::prediction::HeldOut;
-use super::report::{ByPaper, FitReport, Spread, WeightReport, by_paper_terms};
+use super::report::{ByPaper, Correction, FitReport, Spread, WeightReport};
 
-/// The report in words.
-pub(super) fn text_of(report: &FitReport) -> String {
-    let mut out = String::new();
-    // Writing to a string never fails.
-    let _ = write_to(report, &mut out);
-    out
+impl FitReport {
+    /// The report in words.
+    pub fn to_text(&self) -> String {
+        let mut out = String::new();
+        // Writing to a string never fails.
+        let _ = write_to(self, &mut out);
+        out
+    }
 }
 
 fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {

@@ -11,7 +11,7 @@
 mod models;
 #[cfg(feature = "reports")]
 mod page;
-mod report;
+pub(super) mod report;
 mod rollout;
 mod split;
 mod tally;
