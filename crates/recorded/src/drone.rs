@@ -1,9 +1,9 @@
 //! The virtual drone: one operator that turns traffic that is known exactly into a recording as a drone would make it.
 //! What is compared with a recording, or tests how well something is recovered from one, goes through it.
 //!
-//! A [`Watch`](crate::Watch) notes simulated vehicles at every step. A [`Drone`] sees of them what lies in its field of view, at its
-//! own frame rate, with errors of position, and it loses vehicles at times. Speeds and headings are those of a tracker:
-//! a straight line is fitted by least squares to the noisy positions half a second before and after.
+//! A [`Watch`](crate::Watch) notes simulated vehicles at every step. A [`Drone`] sees of them what lies in its field of
+//! view, at its own frame rate, with errors of position, and it loses vehicles at times. Speeds and headings are those
+//! of a tracker: a straight line is fitted by least squares to the noisy positions half a second before and after.
 
 use laneweave_recordings::smooth::motion;
 use laneweave_recordings::{Recording, State, Track, resampled};
