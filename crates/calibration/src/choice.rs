@@ -4,8 +4,7 @@
 //! there is one side only, this is the logit of the paper, h = 1/(1 + e^(−η)), with η = (G − θ)/σ. The logarithm of the
 //! likelihood is concave, so Newton's steps find its maximum.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
-
+use crate::matrix::{Cholesky, Matrix, add, dot};
 use crate::prior::Prior;
 
 /// Observed choices, as numbers only.
@@ -36,7 +35,7 @@ pub struct Fit {
     /// The most likely weights, one for each term.
     pub estimates: Vec<f64>,
     /// Their covariance: the inverse of the information, with that of the prior.
-    pub covariance: DMatrix<f64>,
+    pub covariance: Matrix,
     /// Logarithm of the likelihood at the estimates, without the prior.
     pub log_likelihood: f64,
     /// Whether the maximum was found.
@@ -46,7 +45,7 @@ pub struct Fit {
 impl Fit {
     /// Standard errors of the estimates.
     pub fn standard_errors(&self) -> Vec<f64> {
-        self.covariance.diagonal().iter().map(|it| it.sqrt()).collect()
+        self.covariance.diagonal().map(f64::sqrt).collect()
     }
 }
 
@@ -91,52 +90,52 @@ impl Choices {
     ///
     /// `None` if the data leave a combination of parameters open of which the prior says nothing.
     pub fn fit(&self, prior: &Prior) -> Option<Fit> {
-        let mut at = DVector::from_vec(prior.means.clone());
+        let mut at = prior.means.clone();
         let mut now = self.look(&at, prior);
         let mut is_converged = false;
         for _ in 0..STEPS {
-            let step = Cholesky::new(now.information.clone())?.solve(&now.gradient);
-            let promised = step.dot(&now.gradient);
+            let step = Cholesky::of(&now.information)?.solve(&now.gradient);
+            let promised = dot(&step, &now.gradient);
             if promised < LEAST_GAIN {
                 is_converged = true;
                 break;
             }
             let mut length = 1.0;
-            let next = loop {
-                let next = self.look(&(&at + length * &step), prior);
+            (at, now) = loop {
+                let mut there = at.clone();
+                add(&mut there, length, &step);
+                let next = self.look(&there, prior);
                 if next.value >= now.value || length < 1e-9 {
-                    break next;
+                    break (there, next);
                 }
                 length *= 0.5;
             };
-            at += length * &step;
-            now = next;
         }
-        let covariance = Cholesky::new(now.information.clone())?.inverse();
+        let covariance = Cholesky::of(&now.information)?.inverse();
         let log_likelihood = now.value - prior.log_density(&at);
-        Some(Fit { estimates: at.as_slice().to_vec(), covariance, log_likelihood, is_converged })
+        Some(Fit { estimates: at, covariance, log_likelihood, is_converged })
     }
 
-    fn look(&self, at: &DVector<f64>, prior: &Prior) -> Look {
+    fn look(&self, at: &[f64], prior: &Prior) -> Look {
         let mut look = Look {
             value: prior.log_density(at),
-            gradient: DVector::zeros(self.width),
-            information: DMatrix::from_diagonal(&DVector::from_row_slice(&prior.precisions)),
+            gradient: vec![0.0; self.width],
+            information: Matrix::from_diagonal(&prior.precisions),
         };
         prior.add_gradient(at, &mut look.gradient);
         let mut mean = vec![0.0; self.width];
         for epoch in &self.epochs {
-            let chances = self.chances(epoch, at.as_slice());
+            let chances = self.chances(epoch, at);
             let stays = 1.0 - chances[0] - chances[1];
             let chance = epoch.chosen.map_or(stays, |it| chances[it]);
             look.value += epoch.weight * libm::log(chance.max(f64::MIN_POSITIVE));
             mean.fill(0.0);
             for (side, p) in epoch.sides.into_iter().zip(chances) {
                 let Some(terms) = side.map(|it| self.terms(it)) else { continue };
-                mean.iter_mut().zip(terms).for_each(|(mean, term)| *mean += p * term);
-                add_square(&mut look.information, terms, epoch.weight * p);
+                add(&mut mean, p, terms);
+                look.information.add_outer(epoch.weight * p, terms, terms);
             }
-            add_square(&mut look.information, &mean, -epoch.weight);
+            look.information.add_outer(-epoch.weight, &mean, &mean);
             let chosen = epoch.chosen.and_then(|it| epoch.sides[it]).map(|it| self.terms(it));
             for (row, slope) in look.gradient.iter_mut().enumerate() {
                 *slope += epoch.weight * (chosen.map_or(0.0, |it| it[row]) - mean[row]);
@@ -149,22 +148,8 @@ impl Choices {
 /// Value, gradient and information at some estimates.
 struct Look {
     value: f64,
-    gradient: DVector<f64>,
-    information: DMatrix<f64>,
-}
-
-fn dot(terms: &[f64], estimates: &[f64]) -> f64 {
-    terms.iter().zip(estimates).map(|(term, estimate)| term * estimate).sum()
-}
-
-/// Adds `weight` · x xᵀ.
-fn add_square(matrix: &mut DMatrix<f64>, x: &[f64], weight: f64) {
-    for (column, one) in x.iter().enumerate() {
-        let scaled = weight * one;
-        if scaled != 0.0 {
-            matrix.column_mut(column).iter_mut().zip(x).for_each(|(it, other)| *it += scaled * other);
-        }
-    }
+    gradient: Vec<f64>,
+    information: Matrix,
 }
 
 /// What has to be added to the intercept of a logit if of those who stayed only some were sampled: ln[((1 − τ)/τ)(ȳ/(1

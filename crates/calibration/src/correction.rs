@@ -31,8 +31,7 @@ impl Study {
             let wider = corrected.standard_error / plain.standard_error;
             let before = self.fit.estimates[at];
             self.fit.estimates[at] += by;
-            self.fit.covariance.row_mut(at).scale_mut(wider);
-            self.fit.covariance.column_mut(at).scale_mut(wider);
+            self.fit.covariance.scale_row_and_column(at, wider);
             self.draws.iter_mut().for_each(|it| it[at] = before + by + wider * (it[at] - before));
             match number {
                 // θ is the negative intercept.

@@ -1,6 +1,6 @@
 //! How good predicted probabilities are.
 
-use nalgebra::{Matrix2, Vector2};
+use crate::matrix::{Cholesky, Matrix, add, dot, norm};
 
 /// A prediction: the probability of an event, and whether it came.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,19 +80,19 @@ pub fn calibration(predictions: &[Prediction]) -> Option<[f64; 2]> {
     const STEPS: usize = 50;
     let bounded = |it: f64| it.clamp(1e-12, 1.0 - 1e-12);
     let logit = |it: f64| libm::log(bounded(it) / (1.0 - bounded(it)));
-    let mut at = Vector2::new(0.0, 1.0);
+    let mut at = [0.0, 1.0];
     for _ in 0..STEPS {
-        let (mut gradient, mut information) = (Vector2::zeros(), Matrix2::zeros());
+        let (mut gradient, mut information) = ([0.0; 2], Matrix::zeros(2));
         for it in predictions {
-            let x = Vector2::new(1.0, logit(it.probability));
-            let p = 1.0 / (1.0 + libm::exp(-at.dot(&x)));
-            gradient += (f64::from(u8::from(it.came)) - p) * x;
-            information += p * (1.0 - p) * x * x.transpose();
+            let x = [1.0, logit(it.probability)];
+            let p = 1.0 / (1.0 + libm::exp(-dot(&at, &x)));
+            add(&mut gradient, f64::from(u8::from(it.came)) - p, &x);
+            information.add_outer(p * (1.0 - p), &x, &x);
         }
-        let step: Vector2<f64> = information.cholesky()?.solve(&gradient);
-        at += step;
-        if step.norm() < 1e-10 {
-            return Some([at[0], at[1]]);
+        let step = Cholesky::of(&information)?.solve(&gradient);
+        add(&mut at, 1.0, &step);
+        if norm(&step) < 1e-10 {
+            return Some(at);
         }
     }
     None

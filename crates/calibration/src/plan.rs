@@ -3,8 +3,7 @@
 //! Changes are rare, so the information about the weights is the number of changes times the covariance of the yields:
 //! se = √((n Cov(x))⁻¹). This is what a plain logit would have; waiting, unknown desired speeds and places cost more.
 
-use nalgebra::{Cholesky, DMatrix};
-
+use crate::matrix::{Cholesky, Matrix, add};
 use crate::waiting::Design;
 
 /// What is expected of one weight.
@@ -43,23 +42,18 @@ fn inverse_of_covariance(design: &Design) -> Vec<f64> {
     let (terms, rows) = (design.terms, design.gaps.len());
     let node = design.nodes / 2;
     let mut mean = vec![0.0; terms];
-    let mut square: DMatrix<f64> = DMatrix::zeros(terms, terms);
+    let mut covariance = Matrix::zeros(terms);
     for row in 0..rows {
         let values = design.row(row, node);
-        for column in 0..terms {
-            mean[column] += values[column] / rows as f64;
-            (0..terms).for_each(|it| square[(it, column)] += values[it] * values[column] / rows as f64);
-        }
+        add(&mut mean, 1.0 / rows as f64, values);
+        covariance.add_outer(1.0 / rows as f64, values, values);
     }
-    let covariance =
-        DMatrix::from_fn(terms, terms, |row, column| square[(row, column)] - mean[row] * mean[column]);
+    covariance.add_outer(-1.0, &mean, &mean);
     let known: Vec<usize> = (0..terms).filter(|it| covariance[(*it, *it)] > 1e-12).collect();
-    let reduced =
-        DMatrix::from_fn(known.len(), known.len(), |row, column| covariance[(known[row], known[column])]);
     let mut variances = vec![f64::INFINITY; terms];
-    if let Some(found) = Cholesky::new(reduced) {
-        let inverse = found.inverse();
-        known.iter().enumerate().for_each(|(at, term)| variances[*term] = inverse[(at, at)]);
+    if let Some(factored) = Cholesky::of(&covariance.part(&known)) {
+        let found = factored.inverse();
+        known.iter().zip(found.diagonal()).for_each(|(term, variance)| variances[*term] = variance);
     }
     variances
 }

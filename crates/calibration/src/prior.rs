@@ -1,7 +1,5 @@
 //! What is assumed of parameters before data are seen: independent normal distributions.
 
-use nalgebra::DVector;
-
 /// Independent normal priors of the parameters, in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prior {
@@ -18,13 +16,13 @@ impl Prior {
     }
 
     /// The logarithm of its density at `values`, but for a constant.
-    pub fn log_density(&self, values: &DVector<f64>) -> f64 {
+    pub fn log_density(&self, values: &[f64]) -> f64 {
         let terms = values.iter().zip(&self.means).zip(&self.precisions);
         terms.map(|((value, mean), precision)| -0.5 * precision * (value - mean) * (value - mean)).sum()
     }
 
     /// Adds the gradient of that at `values`.
-    pub(crate) fn add_gradient(&self, values: &DVector<f64>, gradient: &mut DVector<f64>) {
+    pub(crate) fn add_gradient(&self, values: &[f64], gradient: &mut [f64]) {
         for (at, slope) in gradient.iter_mut().enumerate() {
             *slope -= self.precisions[at] * (values[at] - self.means[at]);
         }

@@ -1,10 +1,9 @@
 //! A whole fit: the weights with their errors, what the data leave open, and how well models predict.
 
-use nalgebra::DMatrix;
-
 use crate::classes::{Mixture, are_two};
 use crate::desire_model::{DesireModel, assumptions};
 use crate::held_out::{Candidate, Difference, Folds, interval};
+use crate::matrix::Matrix;
 use crate::observe::{Observations, PLAIN};
 use crate::place_spread::{PlaceSpread, effect};
 use crate::prior::Prior;
@@ -266,7 +265,7 @@ impl BetaProfile {
         effect: f64,
         spread: &PlaceSpread,
     ) -> BetaProfile {
-        let mut start: Option<(Vec<f64>, DMatrix<f64>)> = None;
+        let mut start: Option<(Vec<f64>, Matrix)> = None;
         let mut logs = Vec::with_capacity(BETAS.len());
         for beta in BETAS {
             let design = observations.design(&DesireModel::Mcdm { beta });

@@ -1,11 +1,11 @@
 //! Fits the hidden process to all drivers.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::design::{Design, MOST_NODES};
 use super::likelihood::{Look, Memory, Numbers};
 use super::parameters::Layout;
+use crate::matrix::{Cholesky, Matrix, add};
 use crate::maximise::{EXACT, Maximum, ROUGH, maximise};
 use crate::measures::Prediction;
 use crate::prior::Prior;
@@ -43,7 +43,7 @@ pub struct WaitingFit {
     /// The estimates of all parameters.
     pub estimates: Vec<f64>,
     /// Their covariance: the inverse of the information, with that of the prior; 0 for fixed parameters.
-    pub covariance: DMatrix<f64>,
+    pub covariance: Matrix,
     /// Logarithm of the likelihood at the estimates, without the prior.
     pub log_likelihood: f64,
     /// Whether the maximum was found.
@@ -92,20 +92,22 @@ impl Design {
         &self,
         assumptions: &Assumptions,
         weights: &[f64],
-        (estimates, covariance): (&[f64], Option<&DMatrix<f64>>),
+        (estimates, covariance): (&[f64], Option<&Matrix>),
         draws: &[Vec<f64>],
     ) -> Vec<Vec<f64>> {
         let problem = Problem::new(self, assumptions, weights);
         let at = problem.reduced(estimates);
         let scores = problem.scores(&at);
         let covariance = covariance
-            .map_or_else(|| inverse_of(problem.information_of(&scores)), |it| problem.reduced_square(it));
+            .map_or_else(|| inverse_of(problem.information_of(&scores)), |it| it.part(&problem.free));
         let step = |draw: &Vec<f64>| {
-            let mut sum = DVector::zeros(at.len());
+            let mut sum = vec![0.0; at.len()];
             for (driver, score) in scores.iter().enumerate() {
-                sum.axpy((draw[driver] - 1.0) * weights[driver], score, 1.0);
+                add(&mut sum, (draw[driver] - 1.0) * weights[driver], score);
             }
-            problem.full(&(&at + &covariance * sum))
+            let mut there = at.clone();
+            add(&mut there, 1.0, &covariance.times(&sum));
+            problem.full(&there)
         };
         draws.par_iter().map(step).collect()
     }
@@ -117,10 +119,10 @@ impl Design {
         assumptions: &Assumptions,
         weights: &[f64],
         start: &[f64],
-        covariance: &DMatrix<f64>,
+        covariance: &Matrix,
     ) -> Vec<f64> {
         let problem = Problem::new(self, assumptions, weights);
-        let inverse = problem.reduced_square(covariance);
+        let inverse = covariance.part(&problem.free);
         let found = maximise(problem.reduced(start), inverse, ROUGH, |it| problem.evaluate(it));
         problem.full(&found.at)
     }
@@ -194,24 +196,19 @@ impl<'a> Problem<'a> {
     fn solve(&self, similar: Option<&WaitingFit>, least_gain: f64) -> Maximum {
         let start = self.reduced(similar.map_or(&self.assumptions.prior.means, |it| &it.estimates));
         let inverse = match similar {
-            Some(it) => self.reduced_square(&it.covariance),
+            Some(it) => it.covariance.part(&self.free),
             None => inverse_of(self.information_by_scores(&start)),
         };
         maximise(start, inverse, least_gain, |it| self.evaluate(it))
     }
 
-    fn reduced(&self, all: &[f64]) -> DVector<f64> {
-        DVector::from_iterator(self.free.len(), self.free.iter().map(|it| all[*it]))
+    fn reduced(&self, all: &[f64]) -> Vec<f64> {
+        self.free.iter().map(|it| all[*it]).collect()
     }
 
-    fn reduced_square(&self, all: &DMatrix<f64>) -> DMatrix<f64> {
-        let free = &self.free;
-        DMatrix::from_fn(free.len(), free.len(), |row, column| all[(free[row], free[column])])
-    }
-
-    fn full(&self, reduced: &DVector<f64>) -> Vec<f64> {
+    fn full(&self, reduced: &[f64]) -> Vec<f64> {
         let mut all = self.assumptions.prior.means.clone();
-        self.free.iter().zip(reduced.iter()).for_each(|(at, value)| all[*at] = *value);
+        self.free.iter().zip(reduced).for_each(|(at, value)| all[*at] = *value);
         all
     }
 
@@ -243,16 +240,15 @@ impl<'a> Problem<'a> {
     }
 
     /// Likelihood and prior with the gradient by the free parameters.
-    fn evaluate(&self, reduced: &DVector<f64>) -> (f64, DVector<f64>) {
-        let all = DVector::from_vec(self.full(reduced));
-        let (value, gradient) = self.likelihood(all.as_slice());
-        let mut gradient = DVector::from_vec(gradient);
+    fn evaluate(&self, reduced: &[f64]) -> (f64, Vec<f64>) {
+        let all = self.full(reduced);
+        let (value, mut gradient) = self.likelihood(&all);
         self.assumptions.prior.add_gradient(&all, &mut gradient);
-        (value + self.assumptions.prior.log_density(&all), self.reduced(gradient.as_slice()))
+        (value + self.assumptions.prior.log_density(&all), self.reduced(&gradient))
     }
 
     /// The gradient of each driver's log-likelihood by the free parameters.
-    fn scores(&self, reduced: &DVector<f64>) -> Vec<DVector<f64>> {
+    fn scores(&self, reduced: &[f64]) -> Vec<Vec<f64>> {
         let all = self.full(reduced);
         let numbers = Numbers::new(self.layout, &all, self.assumptions.has_spread);
         let of = |memory: &mut Memories, driver| {
@@ -266,42 +262,42 @@ impl<'a> Problem<'a> {
 
     /// The information by the squares of the drivers' scores (Berndt, Hall, Hall, Hausman 1974), with that of the
     /// prior.
-    fn information_by_scores(&self, reduced: &DVector<f64>) -> DMatrix<f64> {
+    fn information_by_scores(&self, reduced: &[f64]) -> Matrix {
         self.information_of(&self.scores(reduced))
     }
 
     /// The same of known scores.
-    fn information_of(&self, scores: &[DVector<f64>]) -> DMatrix<f64> {
+    fn information_of(&self, scores: &[Vec<f64>]) -> Matrix {
         let mut information = self.information_of_prior();
         for (score, weight) in scores.iter().zip(self.weights) {
-            information.ger(*weight, score, score, 1.0);
+            information.add_outer(*weight, score, score);
         }
         information
     }
 
-    fn information_of_prior(&self) -> DMatrix<f64> {
-        DMatrix::from_diagonal(&self.reduced(&self.assumptions.prior.precisions))
+    fn information_of_prior(&self) -> Matrix {
+        Matrix::from_diagonal(&self.reduced(&self.assumptions.prior.precisions))
     }
 
     /// The negative Hessian: by differences of gradients in the rows of all parameters but the places', among which it
     /// is that by scores.
-    fn information(&self, at: &DVector<f64>) -> DMatrix<f64> {
+    fn information(&self, at: &[f64]) -> Matrix {
         let by_scores = self.information_by_scores(at);
-        let errors = inverse_of(by_scores.clone()).diagonal().map(|it| it.max(0.0).sqrt());
+        let errors: Vec<f64> =
+            inverse_of(by_scores.clone()).diagonal().map(|it| it.max(0.0).sqrt()).collect();
         let mut information = by_scores.clone();
         let is_place = |it: &usize| self.layout.places().contains(it);
         for column in self.free.iter().position(is_place).map_or(0..self.free.len(), |it| 0..it) {
             let step = DIFFERENCE * errors[column].clamp(1e-3, 1e3);
             let [above, below] = [step, -step].map(|it| {
-                let mut at = at.clone();
+                let mut at = at.to_vec();
                 at[column] += it;
                 self.evaluate(&at).1
             });
-            let slope = (below - above) / (2.0 * step);
-            information.set_row(column, &slope.transpose());
-            information.set_column(column, &slope);
+            let slope = below.iter().zip(&above).map(|(below, above)| (below - above) / (2.0 * step));
+            information.set_row_and_column(column, &slope.collect::<Vec<f64>>());
         }
-        if Cholesky::new(information.clone()).is_some() { information } else { by_scores }
+        if Cholesky::of(&information).is_some() { information } else { by_scores }
     }
 
     /// The maximum, with errors by the `information` there.
@@ -309,16 +305,15 @@ impl<'a> Problem<'a> {
         &self,
         similar: Option<&WaitingFit>,
         least_gain: f64,
-        information: fn(&Problem<'a>, &DVector<f64>) -> DMatrix<f64>,
+        information: fn(&Problem<'a>, &[f64]) -> Matrix,
     ) -> WaitingFit {
         let Maximum { at, is_converged, .. } = self.solve(similar, least_gain);
         let covariance = inverse_of(information(self, &at));
-        let mut whole = DMatrix::zeros(self.layout.count(), self.layout.count());
+        let mut whole = Matrix::zeros(self.layout.count());
         for (row, to) in self.free.iter().enumerate() {
-            self.free
-                .iter()
-                .enumerate()
-                .for_each(|(column, from)| whole[(*to, *from)] = covariance[(row, column)]);
+            for (column, from) in self.free.iter().enumerate() {
+                whole[(*to, *from)] = covariance[(row, column)];
+            }
         }
         let all = self.full(&at);
         let log_likelihood = self.likelihood(&all).0;
@@ -327,13 +322,13 @@ impl<'a> Problem<'a> {
 }
 
 /// The inverse of an information matrix. Directions of which nothing is known get a small one.
-fn inverse_of(mut information: DMatrix<f64>) -> DMatrix<f64> {
-    let mut ridge = 1e-10 * information.diagonal().max().max(1e-6);
+fn inverse_of(mut information: Matrix) -> Matrix {
+    let mut ridge = 1e-10 * information.diagonal().fold(1e-6, f64::max);
     loop {
-        if let Some(it) = Cholesky::new(information.clone()) {
+        if let Some(it) = Cholesky::of(&information) {
             return it.inverse();
         }
-        (0..information.nrows()).for_each(|it| information[(it, it)] += ridge);
+        (0..information.size()).for_each(|it| information[(it, it)] += ridge);
         ridge *= 10.0;
     }
 }
