@@ -60,8 +60,8 @@ impl Matrix {
         values.iter().enumerate().for_each(|(row, value)| self[(row, at)] = *value);
     }
 
-    /// Multiplies a row, and then the column of the same number, by `factor`: a covariance becomes that with a parameter
-    /// that is `factor` times as large.
+    /// Multiplies a row, and then the column of the same number, by `factor`: a covariance becomes that of parameters
+    /// of which this one is `factor` times as large.
     pub fn scale_row_and_column(&mut self, at: usize, factor: f64) {
         self.row_mut(at).iter_mut().for_each(|it| *it *= factor);
         (0..self.size).for_each(|row| self[(row, at)] *= factor);

@@ -321,14 +321,28 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// The inverse of an information matrix. Directions of which nothing is known get a small one.
+/// The inverse of an information matrix. Directions of which nothing is known get a small one. Where a value is not a
+/// number, no variance is one.
 fn inverse_of(mut information: Matrix) -> Matrix {
     let mut ridge = 1e-10 * information.diagonal().fold(1e-6, f64::max);
-    loop {
+    while ridge.is_finite() {
         if let Some(it) = Cholesky::of(&information) {
             return it.inverse();
         }
         (0..information.size()).for_each(|it| information[(it, it)] += ridge);
         ridge *= 10.0;
+    }
+    Matrix::from_diagonal(&vec![f64::NAN; information.size()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_information_without_numbers_has_an_inverse_without_numbers() {
+        let mut information = Matrix::from_diagonal(&[1.0, 1.0]);
+        information[(1, 0)] = f64::NAN;
+        assert!(inverse_of(information).diagonal().all(f64::is_nan));
     }
 }
