@@ -1,7 +1,7 @@
 //! Generated maps: drawings made from a few numbers.
 //!
-//! A generator gives a [`Drawing`](laneweave_maps::Drawing). [`build`](laneweave_maps::Drawing::build) makes a map of it,
-//! and [`lanelet2::write`](laneweave_maps::lanelet2::write) a file.
+//! A generator gives a [`Drawing`](laneweave_maps::Drawing). [`build`](laneweave_maps::Drawing::build) makes a map of
+//! it, and [`lanelet2::write`](laneweave_maps::lanelet2::write) a file.
 
 mod approach;
 mod canvas;
