@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Whether the recipes still hold. Each patch is applied to a clean copy of the tree, is formatted, builds without a warning,
-# and the lines of its head that begin with `$` succeed. The tree is what git has, with changes that are not committed yet;
-# new files have to be added first (`git add`).
+# Whether the recipes still hold. Each patch applies to a clean copy of the tree, is formatted, builds without a warning, and
+# the lines of its head that begin with `$` succeed. The tree is what git has, with changes that are not committed yet; new
+# files have to be added first (`git add`).
 #
-#     recipes/check.sh                  all recipes
+#     recipes/check.sh                  all recipes: each applies alone, and together they are built and tried once
+#     recipes/check.sh --each           all recipes: each is built and tried alone, which takes about ten minutes
 #     recipes/check.sh incentive …      these recipes
 #     recipes/check.sh --renew NAME     writes NAME.patch anew from the changes of the working tree, and keeps its head
 #
@@ -23,6 +24,8 @@ if [ "${1:-}" = --renew ]; then
     exit
 fi
 
+each=
+if [ "${1:-}" = --each ]; then each=yes; shift; fi
 names=("$@")
 if [ $# -eq 0 ]; then
     mapfile -t names < <(basename -s .patch recipes/*.patch)
@@ -50,16 +53,28 @@ git init --quiet
 git add --force --all
 git -c user.name=recipes -c user.email=recipes@localhost commit --quiet --message "as it is"
 
-for name in "${names[@]}"; do
-    printf '\n== recipe %s (after %d s)\n' "$name" "$SECONDS"
-    git apply "$root/recipes/$name.patch" || fail "$name" "its patch does not apply"
-    cargo fmt --all --check || fail "$name" "it is not formatted"
-    cargo build --locked --offline -p laneweave-cli 2>&1 | tee build.log || fail "$name" "it does not build"
-    ! grep -q '^warning' build.log || fail "$name" "a warning above"
-    bash -euxo pipefail <(sed -n '/^diff --git /q; s/^ *\$ //p' "$root/recipes/$name.patch") ||
-        fail "$name" "a command of its head fails"
+# Applies some recipes to the clean copy, builds it, and tries the commands of their heads.
+try() {
+    local name
+    printf '\n== recipes: %s (after %d s)\n' "$*" "$SECONDS"
+    for name; do git apply "$root/recipes/$name.patch" || fail "$name" "its patch does not apply"; done
+    cargo fmt --all --check || fail "$*" "it is not formatted"
+    cargo build --locked --offline -p laneweave-cli 2>&1 | tee build.log || fail "$*" "it does not build"
+    ! grep -q '^warning' build.log || fail "$*" "a warning above"
+    for name; do
+        bash -euxo pipefail <(sed -n '/^diff --git /q; s/^ *\$ //p' "$root/recipes/$name.patch") ||
+            fail "$name" "a command of its head fails"
+    done
     git reset --quiet --hard
     git clean --quiet --force -d -x
-done
+}
 
+if [ "$each" ]; then
+    for name in "${names[@]}"; do try "$name"; done
+else
+    for name in "${names[@]}"; do
+        git apply --check "$root/recipes/$name.patch" || fail "$name" "its patch does not apply"
+    done
+    try "${names[@]}"
+fi
 echo "recipes hold: ${names[*]} (after $SECONDS s)"
