@@ -73,7 +73,7 @@ fn nobody_above_the_library_imports_the_world_or_what_is_prepared_of_it() {
 }
 
 /// All Rust files of a folder.
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder").map(|it| it.expect("an entry").path());
     entries
         .flat_map(|path| match path.is_dir() {

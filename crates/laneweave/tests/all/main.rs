@@ -5,6 +5,7 @@ mod approach;
 mod bad_calls;
 mod capacity;
 mod checkpoint;
+mod circles;
 mod crates;
 mod door;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
