@@ -39,14 +39,16 @@ done
 # The copy is a repository of its own. So it is made clean again without touching files that did not change, and only
 # what a recipe changes is built anew.
 copy=$(mktemp -d)
-trap 'rm -rf "$copy"' EXIT
+programs=$(mktemp -d)
+trap 'rm -rf "$copy" "$programs"' EXIT
 commit=$(git stash create)
 git archive "${commit:-HEAD}" | tar -x -m -C "$copy"
-# Crates of the copy have another version, so that they never pass for those of this tree in the common target folder.
+# What is compiled is shared with this tree, and its programs are not: its tests may run at the same time. Crates of the
+# copy have another version, so that they never pass for those of this tree.
 sed -i '/^\[workspace.package\]/,/^\[/ s/^version = "\([^"]*\)"/version = "\1+recipes"/' "$copy/Cargo.toml"
 
-export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
-PATH=$CARGO_TARGET_DIR/debug:$PATH
+export CARGO_BUILD_BUILD_DIR=${CARGO_TARGET_DIR:-$root/target} CARGO_TARGET_DIR=$programs
+PATH=$programs/debug:$PATH
 cd "$copy"
 cargo metadata --offline --format-version 1 >/dev/null
 git init --quiet
