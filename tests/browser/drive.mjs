@@ -2,7 +2,8 @@
 //
 //   xvfb-run -a node drive.mjs PROGRAM [NAME...]
 //
-// Pictures go to shots/. LANEWEAVE_DATA names the folder of real maps and recordings.
+// Pictures go to shots/. LANEWEAVE_DATA names the folder of real maps and recordings. With LANEWEAVE_TESTS=full every
+// report and page of a map is looked at in all looks.
 
 import { mkdtempSync, rmSync } from 'node:fs';
 import os from 'node:os';
