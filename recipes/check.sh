@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether the recipes still hold. Each patch applies to a clean copy of the tree, is formatted, builds without a warning, and
-# the lines of its head that begin with `$` succeed. The tree is what git has, with changes that are not committed yet; new
-# files have to be added first (`git add`).
+# the lines of its head that begin with `$` succeed, with `--each` also those that begin with `$$`, which take long. The tree
+# is what git has, with changes that are not committed yet; new files have to be added first (`git add`).
 #
 #     recipes/check.sh                  all recipes: each applies alone, and together they are built and tried once
 #     recipes/check.sh --each           all recipes: each is built and tried alone, which takes about ten minutes
@@ -24,8 +24,8 @@ if [ "${1:-}" = --renew ]; then
     exit
 fi
 
-each=
-if [ "${1:-}" = --each ]; then each=yes; shift; fi
+each= command='\$'
+if [ "${1:-}" = --each ]; then each=yes command='\$\$\?'; shift; fi
 names=("$@")
 if [ $# -eq 0 ]; then
     mapfile -t names < <(basename -s .patch recipes/*.patch)
@@ -64,7 +64,7 @@ try() {
     cargo build --locked --offline -p laneweave-cli 2>&1 | tee build.log || fail "$*" "it does not build"
     ! grep -q '^warning' build.log || fail "$*" "a warning above"
     for name; do
-        bash -euxo pipefail <(sed -n '/^diff --git /q; s/^ *\$ //p' "$root/recipes/$name.patch") ||
+        bash -euxo pipefail <(sed -n "/^diff --git /q; s/^ *$command //p" "$root/recipes/$name.patch") ||
             fail "$name" "a command of its head fails"
     done
     git reset --quiet --hard
