@@ -16,8 +16,9 @@ pub struct Format {
     pub name: &'static str,
     /// The extensions of its files, without the dot.
     pub extensions: &'static [&'static str],
-    /// Whether a file that begins with these bytes is of this format, whatever its name; never, if that cannot be told.
-    pub begins: fn(&[u8]) -> bool,
+    /// Whether a file that begins with these bytes is of this format, whatever its name; `None` if first bytes cannot
+    /// tell that.
+    pub begins: Option<fn(&[u8]) -> bool>,
     /// Whether its files may hold a recording beside the map.
     pub has_tracks: bool,
     /// Reads the content of a file.
@@ -31,7 +32,7 @@ pub const FORMATS: &[Format] = &[
     Format {
         name: "Lanelet2",
         extensions: &["osm", "osm_xy"],
-        begins: |it| xml::root(it) == Some("osm"),
+        begins: Some(|it| xml::root(it) == Some("osm")),
         has_tracks: false,
         read: lanelet2::read,
         write: Some(lanelet2::write),
@@ -39,7 +40,7 @@ pub const FORMATS: &[Format] = &[
     Format {
         name: "CommonRoad",
         extensions: &["xml"],
-        begins: |it| xml::root(it) == Some("commonRoad"),
+        begins: Some(|it| xml::root(it) == Some("commonRoad")),
         has_tracks: true,
         read: commonroad::read,
         write: None,

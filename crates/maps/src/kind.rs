@@ -64,7 +64,7 @@ impl FileKind {
     /// What a file is that begins with these bytes.
     pub fn by_content(start: &[u8]) -> FileKind {
         let start = &start[..start.len().min(ENOUGH)];
-        if let Some(format) = FORMATS.iter().find(|it| (it.begins)(start)) {
+        if let Some(format) = FORMATS.iter().find(|it| it.begins.is_some_and(|begins| begins(start))) {
             return FileKind::Map(format);
         }
         let text = String::from_utf8_lossy(start);

@@ -39,6 +39,9 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     }
     match FileKind::by_content(&bytes) {
         FileKind::Map(other) if other.name != format.name => Err(misnamed(other)),
+        other @ (FileKind::Toml | FileKind::Csv | FileKind::Parquet) if format.begins.is_some() => {
+            Err(other_kind(other, path, "content"))
+        }
         _ => (format.read)(&bytes, options),
     }
 }
@@ -65,22 +68,25 @@ fn read_all(source: impl Read, size: u64) -> io::Result<Vec<u8>> {
 
 /// The format that the name of a file says.
 fn format_of(path: &Path) -> Result<&'static Format, MapError> {
-    let by_name = FileKind::by_name(path);
-    let (kind, told_by) = match by_name {
-        FileKind::Map(format) => return Ok(format),
-        FileKind::Unknown => (FileKind::by_content(&start(path)), "content"),
-        _ => (by_name, "name"),
-    };
+    match FileKind::by_name(path) {
+        FileKind::Map(format) => Ok(format),
+        FileKind::Unknown => Err(other_kind(FileKind::by_content(&start(path)), path, "content")),
+        by_name => Err(other_kind(by_name, path, "name")),
+    }
+}
+
+/// The refusal of a file that is of this kind, as its name or its content tells.
+fn other_kind(kind: FileKind, path: &Path, told_by: &'static str) -> MapError {
     let remedy = match (kind, told_by) {
-        (FileKind::Map(format), _) => return Err(misnamed(format)),
+        (FileKind::Map(format), _) => return misnamed(format),
         (FileKind::Toml, "name") => "give the map itself, which a scenario names in its key map".into(),
         (FileKind::Toml, _) => "give the map itself, or let the name of a scenario end in .toml".into(),
         (FileKind::Csv | FileKind::Parquet, _) => {
             format!("give the map of its location, known are {}", known())
         }
-        (FileKind::Xml | FileKind::Folder | FileKind::Unknown, _) => return Err(unknown(path)),
+        (FileKind::Xml | FileKind::Folder | FileKind::Unknown, _) => return unknown(path),
     };
-    Err(MapError::OtherKind { what: kind.to_string(), told_by, remedy })
+    MapError::OtherKind { what: kind.to_string(), told_by, remedy }
 }
 
 fn misnamed(format: &Format) -> MapError {

@@ -168,7 +168,7 @@ fn files_that_cannot_be_read_say_why() {
         "by its name this is a scenario or a style, not a map; give the map itself, which a scenario names in its key map"
     );
     let file = std::env::temp_dir().join(format!("laneweave-maps-{}.OSM", std::process::id()));
-    fs::write(&file, "[package]").unwrap();
+    fs::write(&file, "no map at all").unwrap();
     assert!(refusal(&file).starts_with("line 1: the outermost element is <>, not <osm>"));
     fs::write(&file, TWO_LANES).unwrap();
     assert_eq!(load(&file, &ReadOptions::default()).unwrap().network.lanelets.len(), 2);
@@ -200,4 +200,7 @@ fn a_file_with_a_wrong_name_is_told_by_its_content() {
         refusal("town.scenario", "map = \"town.osm\""),
         "by its content this is a scenario or a style, not a map; give the map itself, or let the name of a scenario end in .toml"
     );
+    assert_eq!(refusal("town.osm", "# ours\nmap = \"m.osm\""), refusal("town.scenario", "map = \"m.osm\""));
+    assert_eq!(refusal("tracks.xml", "track_id,frame_id"), refusal("tracks.osm", "track_id,frame_id"));
+    assert!(refusal("tracks.osm", "track_id,frame_id").starts_with("by its content this is a table"));
 }
