@@ -124,11 +124,11 @@ macro_rules! parameters {
 
 with_incentives! { parameters! {
     follow {
-        Acceleration "follow.acceleration" range(0.1, 10.0, "m/s²"), [Idm Acc Krauss Gipps] acceleration;
-        Deceleration "follow.deceleration" range(0.1, 10.0, "m/s²"), [Idm Acc Krauss Gipps] deceleration;
-        TimeGap "follow.time_gap" range(0.1, 10.0, "s"), [Idm Acc Gfm Krauss Newell] time_gap;
-        JamGap "follow.jam_gap" range(0.0, 20.0, "m"), [Idm Fvdm Acc Ovm Gfm Krauss Gipps Newell] jam_gap;
-        Exponent "follow.exponent" range(1.0, 20.0, ""), [Idm Acc] exponent;
+        Acceleration "follow.acceleration" range(0.1, 10.0, "m/s²"), [Idm IdmPlus Acc Krauss Gipps] acceleration;
+        Deceleration "follow.deceleration" range(0.1, 10.0, "m/s²"), [Idm IdmPlus Acc Krauss Gipps] deceleration;
+        TimeGap "follow.time_gap" range(0.1, 10.0, "s"), [Idm IdmPlus Acc Gfm Krauss Newell] time_gap;
+        JamGap "follow.jam_gap" range(0.0, 20.0, "m"), [Idm IdmPlus Fvdm Acc Ovm Gfm Krauss Gipps Newell] jam_gap;
+        Exponent "follow.exponent" range(1.0, 20.0, ""), [Idm IdmPlus Acc] exponent;
         Sensitivity "follow.sensitivity" range(0.01, 10.0, "1/s"), [Fvdm Ovm Gfm] sensitivity;
         RelativeSensitivity "follow.relative_sensitivity" range(0.0, 10.0, "1/s"), [Fvdm Gfm] relative_sensitivity;
         FollowingRange "follow.range" range(1.0, 1000.0, "m"), [Fvdm Gfm] range;

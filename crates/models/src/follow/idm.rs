@@ -38,8 +38,9 @@ impl Idm {
     /// The usual δ, for which two products compute the power.
     const USUAL_EXPONENT: f64 = 4.0;
 
+    /// 1 − (v/v₀)^δ, of v/v₀: what of the acceleration a free road leaves.
     #[inline]
-    fn free(&self, ratio: f64) -> f64 {
+    pub(super) fn free(&self, ratio: f64) -> f64 {
         if self.exponent == Idm::USUAL_EXPONENT {
             let square = ratio * ratio;
             1.0 - square * square
@@ -47,20 +48,24 @@ impl Idm {
             1.0 - libm::pow(ratio, self.exponent)
         }
     }
+
+    /// (s*/s)²: what of the acceleration the vehicle ahead takes.
+    #[inline]
+    pub(super) fn interaction(&self, pace: Pace, ahead: Ahead) -> f64 {
+        let approach = pace.speed - ahead.speed;
+        let braking = pace.speed * approach / (2.0 * (self.acceleration * self.deceleration).sqrt());
+        // Plain comparisons: f64::max takes five times as long here.
+        let dynamic = pace.speed * pace.time_gap(self.time_gap) + braking;
+        let desired_gap = self.jam_gap + if dynamic > 0.0 { dynamic } else { 0.0 };
+        let ratio = desired_gap / if ahead.gap > Idm::SHORTEST { ahead.gap } else { Idm::SHORTEST };
+        ratio * ratio
+    }
 }
 
 impl CarFollowing for Idm {
     #[inline]
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        let interaction = ahead.map_or(0.0, |ahead| {
-            let approach = pace.speed - ahead.speed;
-            let braking = pace.speed * approach / (2.0 * (self.acceleration * self.deceleration).sqrt());
-            // Plain comparisons: f64::max takes five times as long here.
-            let dynamic = pace.speed * pace.time_gap(self.time_gap) + braking;
-            let desired_gap = self.jam_gap + if dynamic > 0.0 { dynamic } else { 0.0 };
-            let ratio = desired_gap / if ahead.gap > Idm::SHORTEST { ahead.gap } else { Idm::SHORTEST };
-            ratio * ratio
-        });
+        let interaction = ahead.map_or(0.0, |ahead| self.interaction(pace, ahead));
         self.acceleration * (self.free(pace.speed / pace.desired) - interaction)
     }
 }

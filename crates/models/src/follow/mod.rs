@@ -5,6 +5,7 @@ mod fvdm;
 mod gfm;
 mod gipps;
 mod idm;
+mod idm_plus;
 mod krauss;
 mod newell;
 mod optimal_velocity;
@@ -16,6 +17,7 @@ pub use fvdm::Fvdm;
 pub use gfm::{Gfm, GfmForm};
 pub use gipps::Gipps;
 pub use idm::Idm;
+pub use idm_plus::IdmPlus;
 pub use krauss::Krauss;
 pub use newell::Newell;
 pub use optimal_velocity::OptimalVelocity;
@@ -127,6 +129,9 @@ pub enum FollowingModel {
     Gipps(Gipps),
     /// Newell's simplified model.
     Newell(Newell),
+    /// IDM+: the least of the terms of the Intelligent Driver Model.
+    #[serde(rename = "idm+")]
+    IdmPlus(IdmPlus),
 }
 
 /// Calls the method of the model in this variant.
@@ -141,16 +146,19 @@ macro_rules! ask {
             FollowingModel::Krauss($model) => $answer,
             FollowingModel::Gipps($model) => $answer,
             FollowingModel::Newell($model) => $answer,
+            FollowingModel::IdmPlus($model) => $answer,
         }
     };
 }
 
 impl CarFollowing for FollowingModel {
-    // The most frequent call of a simulation: inlining saves a third of its time for the most frequent model.
+    // The most frequent call of a simulation: inlining saves a third of its time for the most frequent models.
     #[inline(always)]
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        if let FollowingModel::Idm(model) = self {
-            return model.acceleration(pace, ahead);
+        match self {
+            FollowingModel::IdmPlus(model) => return model.acceleration(pace, ahead),
+            FollowingModel::Idm(model) => return model.acceleration(pace, ahead),
+            _ => {}
         }
         let Pace { speed, desired, headway_relaxation } = pace;
         let ahead = ahead.unwrap_or(Ahead::steady(f64::INFINITY, 0.0));
@@ -207,11 +215,11 @@ impl FollowingModel {
     }
 
     /// Gap [m] that emergency braking keeps to another vehicle for a driver with this model, at most
-    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM and FVDM keep a gap by themselves; other models may come up to the
+    /// [`Self::LARGEST_CLEARANCE`] (ours). IDM, IDM+ and FVDM keep a gap by themselves; other models may come up to the
     /// bumper ahead, where there is no space to turn into another lane.
     pub fn clearance(&self) -> f64 {
         match self {
-            FollowingModel::Idm(_) | FollowingModel::Fvdm(_) => 0.0,
+            FollowingModel::Idm(_) | FollowingModel::IdmPlus(_) | FollowingModel::Fvdm(_) => 0.0,
             _ => FollowingModel::LARGEST_CLEARANCE,
         }
     }

@@ -6,7 +6,7 @@ use crate::roads::{Road, drivers};
 use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Reading;
 use laneweave_models::Style;
-use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, Krauss, Newell, Ovm};
+use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, IdmPlus, Krauss, Newell, Ovm};
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Placement, Setup, World};
 use proptest::prelude::*;
@@ -125,6 +125,7 @@ fn all_models() -> Vec<FollowingModel> {
         FollowingModel::Krauss(Krauss::default()),
         FollowingModel::Gipps(Gipps::default()),
         FollowingModel::Newell(Newell::default()),
+        FollowingModel::IdmPlus(IdmPlus::default()),
     ]
 }
 

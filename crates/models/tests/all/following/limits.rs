@@ -2,7 +2,7 @@
 
 use laneweave_models::braking::{HARDEST_BRAKING, is_secure, secure_speed};
 use laneweave_models::follow::{
-    Acc, Ahead, CarFollowing, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Krauss, Newell, Ovm, Pace,
+    Acc, Ahead, CarFollowing, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, IdmPlus, Krauss, Newell, Ovm, Pace,
 };
 use proptest::prelude::*;
 
@@ -25,6 +25,7 @@ fn any_model() -> impl Strategy<Value = FollowingModel> {
         Just(FollowingModel::Krauss(Krauss::default())),
         Just(FollowingModel::Gipps(Gipps::default())),
         Just(FollowingModel::Newell(Newell::default())),
+        Just(FollowingModel::IdmPlus(IdmPlus::default())),
     ]
 }
 
@@ -86,6 +87,7 @@ proptest! {
             FollowingModel::Gfm(gfm) => (desired - speed) / gfm.adjustment_time,
             FollowingModel::Krauss(krauss) => krauss.acceleration,
             FollowingModel::Gipps(gipps) => gipps.acceleration,
+            FollowingModel::IdmPlus(idm_plus) => idm_plus.acceleration,
             FollowingModel::Newell(newell) => (desired - speed) / (newell.time_gap * headway_relaxation).max(0.5),
         };
         prop_assert!(acceleration <= limit + 1e-9, "{acceleration} above {limit}");

@@ -2,6 +2,7 @@
 
 mod cars;
 mod delayed;
+mod idm_plus;
 mod limits;
 mod optimal;
 mod points;

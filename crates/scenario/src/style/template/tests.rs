@@ -147,7 +147,7 @@ fn every_number_of_a_style_is_a_parameter_and_no_other_key_is() {
         }
     }
     let (mut used, mut unbounded) = (BTreeSet::new(), BTreeSet::new());
-    for follow in ["idm", "fvdm", "acc", "ovm", "gfm", "krauss", "gipps", "newell"] {
+    for follow in ["idm", "fvdm", "acc", "ovm", "gfm", "krauss", "gipps", "newell", "idm+"] {
         for change in ["mcdm", "mobil", "lmrs", "constant-hazard"] {
             let text = format!("name = \"x\"\nfollow.model = {follow:?}\nchange.model = {change:?}");
             let mut style: Style = toml::from_str(&text).unwrap();
