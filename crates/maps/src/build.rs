@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::conflict::conflicts;
 use crate::contents::Contents;
-use crate::drawing::{Drawing, KMH_PER_MPS, Lane};
+use crate::drawing::{Drawing, KMH_PER_MPS, Lane, Surroundings};
 use crate::error::MapError;
 use crate::graph::{self, Graph};
 use crate::map::Map;
@@ -29,7 +29,9 @@ impl Drawing {
                     lanes.push(*lane);
                     let Shape { left, right, centre } = shape;
                     let limit = lane.limit_kmh / KMH_PER_MPS;
-                    lanelets.push(Lanelet::alone(lane.id, [left, right, centre], limit));
+                    let is_in_town = lane.surroundings == Surroundings::Town;
+                    let alone = Lanelet::alone(lane.id, [left, right, centre], limit);
+                    lanelets.push(Lanelet { is_in_town, ..alone });
                 }
                 Err(flaw) => problems.push(Problem {
                     element: format!("lanelet {}", lane.id),

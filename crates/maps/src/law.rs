@@ -1,6 +1,8 @@
 //! The traffic law on a map: speed limits where the map gives none, and the use of lanes.
 
-use laneweave_network::LaneUse;
+use laneweave_network::{LaneUse, RoadLaw};
+
+use crate::drawing::KMH_PER_MPS;
 
 /// Kilometres an hour in a mile an hour.
 pub(crate) const KMH_PER_MPH: f64 = 1.609_344;
@@ -16,14 +18,32 @@ pub enum Law {
 }
 
 impl Law {
-    /// Which lanes it wants drivers to use. Many states ask only slower traffic to keep to the slow side; none of that
-    /// is read here.
-    pub fn lane_use(self) -> LaneUse {
+    /// Its rules of the road.
+    ///
+    /// * Germany: drivers keep to the right (StVO § 2 (2)), and pass on the left (§ 5 (1)). In towns, on roads with
+    ///   several marked lanes, vehicles of up to 3.5 t choose their lane freely, and may pass on the right (§ 7 (3)).
+    ///   Trucks and coaches drive at most 80 km/h (§ 3 (3), § 18 (5)); that trucks of more than 7.5 t drive at most
+    ///   60 km/h outside of towns is left out.
+    /// * United States: who drives slower than the traffic keeps to the right (Uniform Vehicle Code § 11-301 (b)); all
+    ///   may pass on either side of roads with several lanes (§ 11-304). Most states limit trucks as cars, but most
+    ///   trucks are governed at about 65 mph.
+    ///
+    /// All from memory. Slower than the traffic means here: slower than the limit.
+    pub fn rules(self) -> RoadLaw {
         match self {
-            Law::Germany => LaneUse::SlowSide,
-            Law::UnitedStates => LaneUse::Free,
+            Law::Germany => RoadLaw {
+                lane_use: LaneUse::SlowSide,
+                lane_use_in_town: LaneUse::Free,
+                limit_of_long: 80.0 / KMH_PER_MPS,
+            },
+            Law::UnitedStates => RoadLaw {
+                lane_use: LaneUse::SlowSideIfSlower,
+                lane_use_in_town: LaneUse::SlowSideIfSlower,
+                limit_of_long: 65.0 * KMH_PER_MPH / KMH_PER_MPS,
+            },
         }
     }
+
     /// The limit of a lanelet of this subtype in this location, in Lanelet2's terms [km/h].
     pub(crate) fn limit(self, subtype: Option<&str>, location: Option<&str>) -> f64 {
         match self {
@@ -74,6 +94,16 @@ mod tests {
         assert_eq!(limit(Law::Germany, "highway", "nonurban"), 130.0);
         assert_eq!(limit(Law::Germany, "play_street", "urban"), 7.0);
         assert_eq!(Law::Germany.limit(None, None), 50.0);
+    }
+
+    #[test]
+    fn each_law_says_who_keeps_to_the_slow_side_and_how_fast_trucks_drive() {
+        let germany = Law::Germany.rules();
+        assert_eq!([germany.lane_use, germany.lane_use_in_town], [LaneUse::SlowSide, LaneUse::Free]);
+        assert!((germany.limit_of_long * KMH_PER_MPS - 80.0).abs() < 1e-9);
+        let usa = Law::UnitedStates.rules();
+        assert_eq!([usa.lane_use, usa.lane_use_in_town], [LaneUse::SlowSideIfSlower; 2]);
+        assert!((usa.limit_of_long * KMH_PER_MPS - 104.6).abs() < 0.01);
     }
 
     #[test]

@@ -6,7 +6,8 @@ use crate::bend::note_slow_places;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
 use crate::gate::{MINIMUM_GATE_LENGTH, gates, is_end_of_a_road, lane_drops};
 use crate::junction::Junctions;
-use crate::lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
+use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+use crate::law::RoadLaw;
 use crate::network::Network;
 use crate::width::note_open;
 
@@ -74,7 +75,7 @@ impl Network {
         let starts = place.iter().map(start).collect();
         let mut by_id: Vec<LaneletIndex> = (0..lanelets.len() as u32).map(LaneletIndex).collect();
         by_id.sort_by_key(|it| lanelets[it.at()].id);
-        let (junctions, lane_use) = (Junctions::default(), LaneUse::default());
+        let (junctions, law) = (Junctions::default(), RoadLaw::default());
         Ok(Network {
             lanelets,
             chains,
@@ -82,7 +83,7 @@ impl Network {
             exits,
             lane_drops,
             driving_side,
-            lane_use,
+            law,
             junctions,
             starts,
             by_id,

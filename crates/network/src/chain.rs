@@ -58,6 +58,8 @@ pub struct Chain {
     pub previous: Vec<ChainIndex>,
     /// Speed limits in order of their start.
     pub limits: Vec<Limit>,
+    /// Stretches in built-up areas, in order [m].
+    pub in_town: Vec<[f64; 2]>,
     /// Stretches from which a change to the left is allowed, in order.
     pub left: Vec<Beside>,
     /// Stretches from which a change to the right is allowed, in order.
@@ -211,6 +213,12 @@ impl Chain {
         self.limits[after - 1].speed
     }
 
+    /// Whether `station` lies in a built-up area.
+    #[inline]
+    pub fn is_in_town(&self, station: f64) -> bool {
+        self.in_town.iter().any(|[start, end]| (*start..*end).contains(&station))
+    }
+
     /// Which of its lanelets holds `station`, and how far along that is [m].
     pub fn lanelet(&self, station: f64) -> (LaneletIndex, f64) {
         let after = self.starts.partition_point(|start| *start <= station).max(1);
@@ -232,12 +240,22 @@ impl Chain {
                 limits.push(Limit { start: *start, speed });
             }
         }
+        let ends = starts[1..].iter().copied().chain([f64::INFINITY]);
+        let mut in_town: Vec<[f64; 2]> = Vec::new();
+        for ((lanelet, start), end) in lanelets.iter().zip(&starts).zip(ends) {
+            match in_town.last_mut() {
+                _ if !all[lanelet.at()].is_in_town => {}
+                Some(last) if last[1] == *start => last[1] = end,
+                _ => in_town.push([*start, end]),
+            }
+        }
         Chain {
             length: centre.length(),
             lanelets,
             starts,
             centre,
             limits,
+            in_town,
             following: Vec::new(),
             previous: Vec::new(),
             left: Vec::new(),

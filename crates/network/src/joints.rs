@@ -46,11 +46,11 @@ impl Network {
     /// # Errors
     /// None, as long as the network is sound.
     pub fn joined(self) -> Result<Network, NetworkError> {
-        let Network { mut lanelets, driving_side, lane_use, .. } = self;
+        let Network { mut lanelets, driving_side, law, .. } = self;
         let onward = onward(&lanelets);
         lanelets.iter_mut().zip(onward).for_each(|(lanelet, onward)| lanelet.following = onward);
         let mut network = Network::new(lanelets, driving_side)?;
-        network.lane_use = lane_use;
+        network.law = law;
         Ok(network)
     }
 }

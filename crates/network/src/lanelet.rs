@@ -79,16 +79,6 @@ impl DrivingSide {
     }
 }
 
-/// Which of several lanes the law wants drivers to use.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LaneUse {
-    /// Any; faster drivers may pass on either side.
-    #[default]
-    Free,
-    /// The slow side, unless they overtake; in free traffic nobody passes on the slow side.
-    SlowSide,
-}
-
 /// A piece of lane that vehicles may use, oriented in its direction of travel.
 #[derive(Clone, Debug)]
 pub struct Lanelet {
@@ -102,6 +92,8 @@ pub struct Lanelet {
     pub centre: Polyline,
     /// Speed limit [m/s].
     pub speed_limit: f64,
+    /// It lies in a built-up area and is no motorway.
+    pub is_in_town: bool,
     /// Lanelets that continue it.
     pub following: Vec<LaneletIndex>,
     /// The lanelet on the left to which a change is allowed.
@@ -123,6 +115,7 @@ impl Lanelet {
             right_border,
             centre,
             speed_limit,
+            is_in_town: false,
             following: Vec::new(),
             left: None,
             right: None,

@@ -14,6 +14,7 @@ mod ground;
 mod joints;
 mod junction;
 mod lanelet;
+mod law;
 mod network;
 mod polygon;
 mod rectangle;
@@ -34,7 +35,8 @@ pub use junction::{
     Phase, Place, PlaceKind, Precedence, Priority, Program, Reach, Regulations, Sign, SignalPlan, Stop,
     StopKind, StopRule, Touch, Turn, Zone, ZoneIndex, ZoneKind,
 };
-pub use lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex, Side};
+pub use lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
+pub use law::{LaneUse, RoadLaw};
 pub use network::Network;
 pub use polygon::Polygon;
 pub use rectangle::Rectangle;

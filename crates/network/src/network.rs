@@ -3,7 +3,8 @@
 use crate::chain::{Beside, Chain, ChainIndex, Position};
 use crate::gate::Gate;
 use crate::junction::Junctions;
-use crate::lanelet::{DrivingSide, LaneUse, Lanelet, LaneletIndex};
+use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex};
+use crate::law::{LaneUse, RoadLaw};
 
 /// A road network; it never changes after loading.
 #[derive(Clone, Debug)]
@@ -20,8 +21,8 @@ pub struct Network {
     pub lane_drops: Vec<ChainIndex>,
     /// On which side traffic drives.
     pub driving_side: DrivingSide,
-    /// Which lanes the law wants drivers to use.
-    pub lane_use: LaneUse,
+    /// The law of the place.
+    pub law: RoadLaw,
     /// Conflict zones, and where drivers stop; empty until [`Network::regulated`].
     pub junctions: Junctions,
     /// For each lanelet where it starts.
@@ -35,6 +36,13 @@ impl Network {
     #[inline]
     pub fn chain(&self, index: ChainIndex) -> &Chain {
         &self.chains[index.at()]
+    }
+
+    /// Which lanes the law wants a driver at `station` of `chain` to use.
+    #[inline]
+    pub fn lane_use(&self, chain: &Chain, station: f64, is_long: bool) -> LaneUse {
+        let is_free_to_choose = !is_long && chain.is_in_town(station);
+        if is_free_to_choose { self.law.lane_use_in_town } else { self.law.lane_use }
     }
 
     /// First and last station of a `stretch` of `chain` at which both lanes are wide enough for a change with a car,

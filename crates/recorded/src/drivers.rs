@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::{ChainIndex, Position, Side};
+use laneweave_network::{ChainIndex, Position, RoadLaw, Side};
 use laneweave_recordings::{Extent, LaneChange, Matched, extents, last_before};
 use laneweave_sim::{Class, Destination, Navigator};
 
@@ -34,7 +34,7 @@ impl Assumed {
             .zip(places)
             .filter_map(|(state, place)| {
                 let limit = matched.network.lanelets[place.as_ref()?.lanelet.at()].speed_limit;
-                Some(state.speed / allowed(class, limit)).filter(|it| it.is_finite())
+                Some(state.speed / class.allowed(limit, &matched.network.law)).filter(|it| it.is_finite())
             })
             .collect();
         factors.sort_by(f64::total_cmp);
@@ -63,9 +63,9 @@ pub(crate) struct Change {
 }
 
 impl Driver {
-    /// Its desired speed under `limit` [m/s].
-    pub(crate) fn desired(&self, limit: f64) -> f64 {
-        allowed(self.class, limit) * self.assumed.speed_factor
+    /// Its desired speed under this `law` where the limit of the road is `limit` [m/s].
+    pub(crate) fn desired(&self, limit: f64, law: &RoadLaw) -> f64 {
+        self.class.allowed(limit, law) * self.assumed.speed_factor
     }
 
     /// The chain of `following` on which it continues after state number `at`. Where branches still overlap, the
@@ -140,9 +140,4 @@ pub(crate) fn easiest(navigator: &Navigator, chain: ChainIndex, x: f64) -> Desti
         changes(*a).cmp(&changes(*b)).then(time_of_a.total_cmp(time_of_b))
     });
     easiest.and_then(|(destination, _)| destination)
-}
-
-/// The speed [m/s] that a class may drive under `limit` [m/s].
-pub fn allowed(class: Class, limit: f64) -> f64 {
-    limit.min(class.body().top_speed)
 }

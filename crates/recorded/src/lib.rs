@@ -13,7 +13,7 @@ mod turning_shares;
 mod watch;
 
 pub use class::class_of;
-pub use drivers::{Assumed, allowed};
+pub use drivers::Assumed;
 pub use drone::{Drone, Interruptions};
 pub use evidence::{Evidence, Exposure};
 pub use replay::{Frame, Replay, ReplayError};

@@ -13,7 +13,7 @@ use laneweave_recordings::{Foot, LaneChange, Matched, foot, smooth};
 use laneweave_sim::{Across, Navigator, Scene, Seen, Snapshot, Spot, VehicleId, perceive};
 use thiserror::Error;
 
-use crate::drivers::{Assumed, Driver, allowed, drivers, easiest};
+use crate::drivers::{Assumed, Driver, drivers, easiest};
 
 /// Positions and speeds are smoothed over this time before and after [s].
 const REACH: f64 = 0.25;
@@ -136,7 +136,7 @@ impl<'a> Replay<'a> {
             length: track.length,
             class: driver.class,
             parameters: driver.assumed.parameters,
-            desired: driver.desired(self.matched.network.chain(chain).limit(x)),
+            desired: driver.desired(self.matched.network.chain(chain).limit(x), &self.matched.network.law),
             destination: match self.knows_destinations {
                 true if leads_on => driver.destination,
                 true => easiest(self.navigator, chain, x),
@@ -213,8 +213,9 @@ impl Frame<'_> {
         let Some(spot) = self.spot(vehicle) else { return };
         let scene = self.scene();
         let (class, x) = (scene.driver(spot).class, scene.motion(spot).x);
-        let limit = self.replay.matched.network.chain(spot.chain).limit(x);
-        self.snapshot.set_desired(spot, allowed(class, limit) * speed_factor);
+        let network = self.replay.matched.network;
+        let allowed = class.allowed(network.chain(spot.chain).limit(x), &network.law);
+        self.snapshot.set_desired(spot, allowed * speed_factor);
     }
 
     /// What the driver of a vehicle knows when it considers the lane on `side`; `None` where it may not change to one.

@@ -127,6 +127,7 @@ mod tests {
             left_border: line(-2.0),
             right_border: line(2.0),
             centre: line(0.0),
+            is_in_town: false,
             speed_limit: 20.0,
             following: Vec::new(),
             left: None,

@@ -7,7 +7,7 @@
 
 use laneweave_models::change::Driver;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
-use laneweave_recorded::{Replay, allowed};
+use laneweave_recorded::Replay;
 use laneweave_recordings::Matched;
 use laneweave_sim::driver_of;
 
@@ -87,8 +87,8 @@ fn shown(matched: &Matched, replay: &Replay) -> Vec<Option<Shown>> {
         let scene = frame.scene();
         for spot in frame.vehicles().filter_map(|it| frame.spot(it)) {
             let motion = scene.motion(spot);
-            let allowed =
-                allowed(scene.driver(spot).class, matched.network.chain(spot.chain).limit(motion.x));
+            let limit = matched.network.chain(spot.chain).limit(motion.x);
+            let allowed = scene.driver(spot).class.allowed(limit, &matched.network.law);
             let factor = motion.speed / allowed;
             if factor.is_nan() || factor <= SLOWEST {
                 continue;

@@ -84,7 +84,7 @@ fn a_drawing_and_its_text_make_the_same_map_bit_for_bit() {
             let read = lanelet2::read(text.as_bytes(), &ReadOptions::default()).unwrap();
             let mut drawn = drawing.build().unwrap();
             // The law is none of the drawing's.
-            drawn.network.lane_use = Law::default().lane_use();
+            drawn.network.law = Law::default().rules();
             assert_eq!((&read.problems, &drawn.problems), (&vec![], &vec![]));
             assert_eq!(read.network.driving_side, side);
             assert_eq!(format!("{:?}", read.network), format!("{:?}", drawn.network));

@@ -28,7 +28,7 @@ const MAPS: [(&str, f64); 5] = [
     ("town.osm", 4000.0),
     ("grid.osm", 3000.0),
     ("roundabout.osm", 2000.0),
-    ("all_way_stop.osm", 1500.0),
+    ("all_way_stop.osm", 2000.0),
 ];
 
 #[test]

@@ -79,7 +79,8 @@ fn a_lane_that_narrows_to_nothing_ends_where_it_is_too_narrow() {
 #[test]
 fn a_strip_is_no_lane_and_lanes_side_by_side_are_in_nobodys_way() {
     an_hour_on(&["merge_in_strip", "strip0", "strip1", "narrow_2.6", "narrow_2.75"]);
-    if let (Some(narrow), Some(wide)) = (left("narrow_2.6", 1, 3000.0), left("narrow_2.75", 1, 3000.0)) {
+    let all = |name: &str| (1..=4).map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
+    if let (Some(narrow), Some(wide)) = (all("narrow_2.6"), all("narrow_2.75")) {
         assert!(narrow >= 0.95 * wide, "{narrow} against {wide}");
     }
 }
@@ -102,12 +103,12 @@ fn a_short_window_for_a_lane_change_is_used() {
 }
 
 #[test]
-fn a_window_of_16_m_passes_nearly_what_one_of_60_m_does_where_more_come_than_it_takes() {
-    // In single hours the share varies by 0.02 about its mean.
+fn a_window_of_16_m_passes_most_of_what_one_of_60_m_does_where_more_come_than_it_takes() {
+    // In single hours the share varies by 0.02 about its mean. Quick starts help the longer window more.
     const SEEDS: std::ops::RangeInclusive<u64> = 1..=20;
     let all = |name: &str| SEEDS.map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
     if let (Some(short), Some(long)) = (all("window16"), all("window60")) {
-        assert!(short >= 0.9 * long, "{short} against {long}");
+        assert!(short >= 0.8 * long && short >= 1600.0 * SEEDS.count() as f64, "{short} against {long}");
     }
 }
 

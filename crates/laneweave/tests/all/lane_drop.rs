@@ -4,7 +4,7 @@
 use laneweave::generate::{Motorway, motorway};
 use laneweave::models::Style;
 use laneweave::models::follow::Pace;
-use laneweave::network::{Network, Side};
+use laneweave::network::{Network, RoadLaw, Side};
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
 use laneweave_sim::{Class, Demand, Rate, Setup, Share, World};
@@ -49,7 +49,7 @@ fn equilibrium_of_two_lanes() -> f64 {
     let limit = road(2, None).chains[0].limit(0.0);
     let spacing = |speed: f64| {
         let of = |it: &Style| {
-            let pace = Pace::new(speed, CAR.desired_speed(it, limit));
+            let pace = Pace::new(speed, CAR.desired_speed(it, limit, &RoadLaw::FREE));
             it.follow.equilibrium_gap(pace) + CAR.body().length
         };
         let total: f64 = shares.iter().map(|it| it.weight).sum();

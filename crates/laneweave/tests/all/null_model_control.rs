@@ -1,10 +1,11 @@
 //! Drivers against null-model controls: the signs that distinguish them on a two-lane motorway with 10 % trucks at
-//! 800–1,400 veh/h/lane (catalogue V50), over 20 seeds with 95 % intervals. Drivers who change lanes without a
-//! reason, the control, must fail them.
+//! 800–1,400 veh/h/lane (catalogue V50) under the law of the USA, over 20 seeds with 95 % intervals. Drivers who
+//! change lanes without a reason, the control, must fail them.
 
 use std::collections::HashMap;
 
 use laneweave::generate::{Motorway, motorway};
+use laneweave::maps::Law;
 use laneweave::models::change::{ConstantHazard, LaneChangeModel, Mobil};
 use laneweave::study::{Estimate, Interval, mean};
 use laneweave::style::Population;
@@ -63,7 +64,8 @@ fn control() -> Population {
 
 fn replicate(population: &Population, vehicles_per_hour: f64, seed: u64) -> Signs {
     let road = Motorway { lanes: LANES, length_m: LENGTH_M, ..Motorway::default() };
-    let network = motorway(&road).expect("a road").build().expect("a network").network;
+    let mut network = motorway(&road).expect("a road").build().expect("a network").network;
+    network.law = Law::UnitedStates.rules();
     let Population { driver_parameters, shares } = population.clone();
     let conservative_from = shares[1].first;
     let demand = Demand::even(&network, vehicles_per_hour, 0.1, shares);

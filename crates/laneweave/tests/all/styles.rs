@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use laneweave::maps::{ReadOptions, load};
-use laneweave::network::{ChainIndex, LaneUse, Network};
+use laneweave::network::{ChainIndex, Network, RoadLaw};
 use laneweave::study::{Interval, mean};
 use laneweave::style::{Population, StyleTemplate, find};
 use laneweave_sim::{
@@ -152,7 +152,7 @@ fn changes_off_the_route(style: &str, seed: u64) -> f64 {
     let drivers = population(&[style]);
     // Where drivers keep to the slow side, they hardly leave the lanes of the ramp.
     let mut network = own_map("off_ramp.osm");
-    network.lane_use = LaneUse::Free;
+    network.law = RoadLaw::FREE;
     let mut world = world(network, &drivers, &drivers.shares, 4500.0, seed);
     let mut off = 0;
     drive(&mut world, 600, |world, _| {

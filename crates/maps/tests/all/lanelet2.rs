@@ -154,6 +154,20 @@ fn the_driving_side_is_the_option_then_what_the_map_says_then_right() {
 }
 
 #[test]
+fn a_lanelet_lies_in_a_town_unless_the_map_says_otherwise() {
+    let in_town = |tag: &str| {
+        let text =
+            TWO_LANES.replace("<tag k='type' v='lanelet'/>", &format!("<tag k='type' v='lanelet'/>{tag}"));
+        assert!(tag.is_empty() || text != TWO_LANES);
+        let lanelets = read(&text).unwrap().network.lanelets;
+        lanelets.iter().map(|it| it.is_in_town).collect::<Vec<_>>()
+    };
+    assert_eq!(in_town(""), [true; 2]);
+    assert_eq!(in_town("<tag k='location' v='urban'/>"), [true; 2]);
+    assert_eq!(in_town("<tag k='location' v='nonurban'/>"), [false; 2]);
+}
+
+#[test]
 fn files_that_cannot_be_read_say_why() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let refusal = |path: &Path| load(path, &ReadOptions::default()).unwrap_err().to_string();

@@ -61,7 +61,7 @@ impl Incentive for Keeping {
             self.wish(lane.ahead, remaining, situation.me.pace.desired)
         };
         let [keep, there] = match situation.toward {
-            _ if !situation.keeps_to_the_slow_side => [0.0, 0.0],
+            _ if !situation.lane_rule.keeps() => [0.0, 0.0],
             Toward::Nearside => [0.0, wish(&situation.there)],
             Toward::Offside => [wish(&situation.here), 0.0],
         };

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::incentives::{INCENTIVES, IncentiveName, in_rows, with_incentives};
 use super::returning::Returning;
-use super::situation::{CONGESTED, LaneView, Toward, may_not_pass};
+use super::situation::{CONGESTED, LaneRule, LaneView, Toward, may_not_pass};
 use super::{Chances, Comfort, Courtesy, GainBound, Incentive, Keeping, Route, Situation, Speed, Urgency};
 use crate::exponential::exp;
 use crate::follow::Ahead;
@@ -160,10 +160,10 @@ impl Mcdm {
         Some(Appraisal { rows, gain: self.combine(&rows), theta: self.theta })
     }
 
-    /// Whether its drivers do not pass on the slow side in free traffic; `keeps` where the law wants them there.
+    /// Whether its drivers do not pass on the slow side in free traffic, under this rule.
     #[inline]
-    pub fn minds_offside(&self, keeps: bool) -> bool {
-        keeps && self.keeping.weight != 0.0
+    pub fn minds_offside(&self, rule: LaneRule) -> bool {
+        rule == LaneRule::NoPassingThere && self.keeping.weight != 0.0
     }
 
     /// The anticipated speeds [m/s] here and there, where a driver at `speed` [m/s] on the slow side does not pass its
@@ -189,8 +189,8 @@ impl Mcdm {
 
     /// The situation of a driver who keeps to the slow side, where it does not pass there; `None` for all others.
     fn keeping_there<'a>(&self, situation: &Situation<'a>) -> Option<Situation<'a>> {
-        let Situation { me, here, there, toward, keeps_to_the_slow_side, .. } = *situation;
-        if !self.minds_offside(keeps_to_the_slow_side) {
+        let Situation { me, here, there, toward, lane_rule, .. } = *situation;
+        if !self.minds_offside(lane_rule) {
             return None;
         }
         let (speed, speeds) = (me.pace.speed, [here.anticipated_speed, there.anticipated_speed]);

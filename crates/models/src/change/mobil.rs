@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::incentives::{IncentiveName, in_rows};
 use super::mcdm::{Appraisal, Row, by_threshold};
 use super::route_keeping::RouteKeeping;
-use super::situation::{Driver, LaneView, Situation, Toward, may_not_pass};
+use super::situation::{Driver, LaneRule, LaneView, Situation, Toward, may_not_pass};
 use crate::braking::HARDEST_BRAKING;
 use crate::follow::{Ahead, CarFollowing};
 
@@ -60,13 +60,13 @@ pub enum Traffic {
 }
 
 impl Traffic {
-    /// Whether it is European; `keeps` where the law wants drivers on the slow side.
+    /// Whether it is European where the law has this rule.
     #[inline]
-    pub fn is_european(self, keeps: bool) -> bool {
+    pub fn is_european(self, rule: LaneRule) -> bool {
         match self {
             Traffic::Symmetric => false,
             Traffic::European => true,
-            Traffic::Law => keeps,
+            Traffic::Law => rule == LaneRule::NoPassingThere,
         }
     }
 }
@@ -129,11 +129,11 @@ fn gain([now, then]: [f64; 2]) -> f64 {
 }
 
 impl Mobil {
-    /// The own gain, and the gain of the other vehicles that count [m/s²], in a change `toward` a side; `keeps` where
-    /// the law wants drivers on the slow side.
-    pub fn gains(&self, toward: Toward, keeps: bool, accelerations: &Accelerations) -> [f64; 2] {
+    /// The own gain, and the gain of the other vehicles that count [m/s²], in a change `toward` a side, under this
+    /// rule of the law.
+    pub fn gains(&self, toward: Toward, rule: LaneRule, accelerations: &Accelerations) -> [f64; 2] {
         let Accelerations { own, new_follower, old_follower } = accelerations;
-        let others = match (self.traffic.is_european(keeps), toward) {
+        let others = match (self.traffic.is_european(rule), toward) {
             (false, _) => gain(*new_follower) + gain(*old_follower),
             (true, Toward::Offside) => gain(*new_follower),
             (true, Toward::Nearside) => gain(*old_follower),
@@ -141,10 +141,9 @@ impl Mobil {
         [gain(*own), others]
     }
 
-    /// θ: gain [m/s²] from which a change `toward` a side is worthwhile; `keeps` where the law wants drivers on the
-    /// slow side.
-    pub fn threshold(&self, toward: Toward, keeps: bool) -> f64 {
-        match (self.traffic.is_european(keeps), toward) {
+    /// θ: gain [m/s²] from which a change `toward` a side is worthwhile, under this rule of the law.
+    pub fn threshold(&self, toward: Toward, rule: LaneRule) -> f64 {
+        match (self.traffic.is_european(rule), toward) {
             (false, _) => self.threshold,
             (true, Toward::Offside) => self.threshold + self.bias,
             (true, Toward::Nearside) => self.threshold - self.bias,
@@ -161,12 +160,12 @@ impl Mobil {
     /// The same accelerations where the lane on the slow side counts as no faster than passing there allows: a^eur.
     fn without_passing(&self, situation: &Situation, accelerations: Accelerations) -> Accelerations {
         let Accelerations { own: [now, then], .. } = accelerations;
-        let Situation { me, here, there, toward, keeps_to_the_slow_side, .. } = situation;
+        let Situation { me, here, there, toward, lane_rule, .. } = situation;
         let offside = match toward {
             Toward::Offside => there.ahead,
             Toward::Nearside => here.ahead,
         };
-        let is_european = self.traffic.is_european(*keeps_to_the_slow_side);
+        let is_european = self.traffic.is_european(*lane_rule);
         if !is_european || !offside.is_some_and(|it| self.stays_behind(me.pace.speed, it)) {
             return accelerations;
         }
@@ -179,8 +178,8 @@ impl Mobil {
 
     /// Whether only the preference for the slow side makes the driver of this `appraisal` want the change.
     pub(super) fn is_for_the_slow_side(&self, situation: &Situation, appraisal: &Appraisal) -> bool {
-        let Situation { toward, keeps_to_the_slow_side, .. } = *situation;
-        let is_european = self.traffic.is_european(keeps_to_the_slow_side);
+        let Situation { toward, lane_rule, .. } = *situation;
+        let is_european = self.traffic.is_european(lane_rule);
         is_european && toward == Toward::Nearside && appraisal.gain <= self.threshold
     }
 
@@ -193,8 +192,8 @@ impl Mobil {
     /// that of courtesy. Where the change is neither safe nor for the route, the gain is −∞.
     pub fn appraise(&self, situation: &Situation) -> Appraisal {
         let accelerations = self.without_passing(situation, Accelerations::of(situation));
-        let Situation { toward, keeps_to_the_slow_side, .. } = *situation;
-        let [own, others] = self.gains(toward, keeps_to_the_slow_side, &accelerations);
+        let Situation { toward, lane_rule, .. } = *situation;
+        let [own, others] = self.gains(toward, lane_rule, &accelerations);
         let [route, urgency] = self.route.rows(situation, DECISIVE, self.urgency);
         // The stronger the urgency, the less the accelerations of the moment count: the driver waits for a gap.
         let free = 1.0 - urgency.earning.abs();
@@ -212,6 +211,6 @@ impl Mobil {
         } else {
             f64::NEG_INFINITY
         };
-        Appraisal { rows, gain, theta: self.threshold(toward, keeps_to_the_slow_side) }
+        Appraisal { rows, gain, theta: self.threshold(toward, lane_rule) }
     }
 }

@@ -38,7 +38,7 @@ pub use returning::Returning;
 pub use route::{Route, RouteReading, expected_time};
 pub use route_keeping::RouteKeeping;
 pub use safety::{GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
-pub use situation::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
+pub use situation::{Behind, Driver, LaneRule, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
 pub use speed::{Speed, anticipated_speed};
 pub use urgency::{Urgency, urgency};
 

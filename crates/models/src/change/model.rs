@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::incentives::{INCENTIVES, IncentiveName, in_rows};
 use super::mcdm::{Appraisal, Mcdm, Row, Rule, at_least_once_in};
-use super::situation::{CONGESTED, Situation, may_not_pass};
+use super::situation::{CONGESTED, LaneRule, Situation, may_not_pass};
 use super::urgency::urgency;
 use super::{Comfort, ConstantHazard, Lmrs, Mobil};
 use crate::follow::Ahead;
@@ -140,13 +140,12 @@ impl LaneChangeModel {
         }
     }
 
-    /// Whether drivers may have to stay behind slower ones in the overtaking lane; `keeps` where the law wants them on
-    /// the slow side.
+    /// Whether drivers may have to stay behind slower ones in the overtaking lane, under this rule.
     #[inline]
-    pub fn minds_offside(&self, keeps: bool) -> bool {
+    pub fn minds_offside(&self, rule: LaneRule) -> bool {
         match self {
-            LaneChangeModel::Mcdm(model) => model.minds_offside(keeps),
-            LaneChangeModel::Mobil(model) => model.traffic.is_european(keeps),
+            LaneChangeModel::Mcdm(model) => model.minds_offside(rule),
+            LaneChangeModel::Mobil(model) => model.traffic.is_european(rule),
             LaneChangeModel::Lmrs(_) | LaneChangeModel::ConstantHazard(_) => false,
         }
     }

@@ -1,7 +1,8 @@
 //! What a driver knows when it considers one side. It is plain data, which a test can construct.
 
 use super::headway::Flow;
-use crate::follow::{Ahead, FollowingModel, Pace};
+use crate::comfortable::comfortably;
+use crate::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 
 /// x₀: how far ahead drivers anticipate [m] (Schakel, Knoop, van Arem 2012).
 pub const SIGHT: f64 = 295.0;
@@ -26,6 +27,26 @@ pub(super) fn may_not_pass(speed: f64, offside: Ahead, congested: f64) -> bool {
     speed > offside.speed && offside.speed > congested
 }
 
+/// What the law asks of a driver about lanes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LaneRule {
+    /// It may use any lane, and pass on either side.
+    #[default]
+    Free,
+    /// It has to keep to the slow side, and may pass on either side.
+    SlowSide,
+    /// It has to keep to the slow side, and in free traffic passes nobody there.
+    NoPassingThere,
+}
+
+impl LaneRule {
+    /// Whether the driver has to keep to the slow side.
+    #[inline]
+    pub fn keeps(self) -> bool {
+        self != LaneRule::Free
+    }
+}
+
 /// A driver considers changing to the lane `there`.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
@@ -42,8 +63,8 @@ pub struct Situation<'a> {
     pub section: f64,
     /// Gain for which the driver leaves its route [s]; infinite: it always keeps its route.
     pub band: f64,
-    /// The law wants drivers on the slow side.
-    pub keeps_to_the_slow_side: bool,
+    /// What the law asks of the driver about lanes.
+    pub lane_rule: LaneRule,
     /// Vehicles that signal a change into the driver's lane and for which it would give way.
     pub merging: [Option<Merging<'a>>; 2],
 }
@@ -69,8 +90,26 @@ pub struct Driver<'a> {
     pub acceleration: f64,
     /// How it follows.
     pub follow: &'a FollowingModel,
+    /// Its comfortable braking, see [`crate::comfortable`] [m/s²]; 0: it brakes as its model has it.
+    pub comfortable: f64,
     /// Vehicle length [m].
     pub length: f64,
+}
+
+impl Driver<'_> {
+    /// The acceleration that it needs behind a new `leader` [m/s²]: what decides whether it can be expected to follow.
+    ///
+    /// A driver with comfortable braking comes to a slower leader by kinematics, whatever its model has; so its model
+    /// says only whether the gap is long enough behind a leader as fast as itself (ours).
+    pub fn demanded(&self, leader: Ahead) -> f64 {
+        let behind = |it| self.follow.acceleration(self.pace, Some(it));
+        let wish = behind(leader);
+        if self.comfortable == 0.0 || self.pace.speed <= leader.speed {
+            return wish;
+        }
+        let as_fast = behind(Ahead::steady(leader.gap, self.pace.speed));
+        as_fast.min(comfortably(self.follow, self.comfortable, self.pace, leader, wish))
+    }
 }
 
 /// One lane as the driver sees it from its place.

@@ -1,7 +1,7 @@
 //! IDM+: the Intelligent Driver Model whose free road and whose leader limit the acceleration one at a time.
 //!
-//! Schakel, van Arem, Netten (2010), Effects of Cooperative Adaptive Cruise Control on Traffic Flow Stability, IEEE ITSC
-//! (from memory); numbers of Schakel, Knoop, van Arem (2012), Transp. Res. Rec. 2316, 47 (LMRS; from memory).
+//! Schakel, van Arem, Netten (2010), Effects of Cooperative Adaptive Cruise Control on Traffic Flow Stability, IEEE
+//! ITSC (from memory); numbers of Schakel, Knoop, van Arem (2012), Transp. Res. Rec. 2316, 47 (LMRS; from memory).
 //!
 //! a min[1 − (v/v₀)^δ, 1 − (s*/s)²],  s* as in IDM
 //!

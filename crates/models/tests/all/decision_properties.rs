@@ -4,8 +4,8 @@ use crate::situations::{LENGTH, behind, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{self, Literal, Repaired};
 use laneweave_models::change::{
-    Appraisal, Behind, Combination, Comfort, Driver, Flow, GainBound, LaneChangeModel, LaneView, Mcdm,
-    Merging, RouteReading, RouteView, Rule, Situation, Toward, at_least_once_in,
+    Appraisal, Behind, Combination, Comfort, Driver, Flow, GainBound, LaneChangeModel, LaneRule, LaneView,
+    Mcdm, Merging, RouteReading, RouteView, Rule, Situation, Toward, at_least_once_in,
 };
 use laneweave_models::follow::{Ahead, FollowingModel, Fvdm, Idm, Pace};
 use proptest::option;
@@ -94,15 +94,16 @@ fn any_merging() -> impl Strategy<Value = Merging<'static>> {
 fn any_situation() -> impl Strategy<Value = Situation<'static>> {
     let merging = [option::of(any_merging()), option::of(any_merging())];
     let toward = prop_oneof![Just(Toward::Offside), Just(Toward::Nearside)];
-    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging, toward, any::<bool>()).prop_map(
-        |(me, here, there, section, merging, toward, keeps_to_the_slow_side)| Situation {
+    let rule = prop_oneof![Just(LaneRule::Free), Just(LaneRule::SlowSide), Just(LaneRule::NoPassingThere)];
+    (any_driver(), any_lane(), any_lane(), 1.0..300.0_f64, merging, toward, rule).prop_map(
+        |(me, here, there, section, merging, toward, lane_rule)| Situation {
             toward,
             me,
             here,
             there,
             section,
             band: 0.0,
-            keeps_to_the_slow_side,
+            lane_rule,
             merging,
         },
     )
@@ -145,7 +146,7 @@ proptest! {
         // A new follower would lose the faster leader; this is a harm to it, and another case. Where drivers keep to
         // the slow side, a faster leader in the overtaking lane lets the own lane go faster, too.
         situation.there.behind = None;
-        situation.keeps_to_the_slow_side = false;
+        situation.lane_rule = LaneRule::Free;
         let before = model.appraise(&situation).gain;
         situation.there.anticipated_speed += faster;
         if let Some(ahead) = &mut situation.there.ahead {
@@ -191,10 +192,10 @@ proptest! {
             lane.route = RouteView { changes: 0, remaining: f64::INFINITY, ..lane.route };
         }
         let Situation { toward, me, here, there, section, band, .. } = situation;
-        let (leaders, keeps) = ([here.ahead, there.ahead], situation.keeps_to_the_slow_side);
+        let (leaders, rule) = ([here.ahead, there.ahead], situation.lane_rule);
         let speeds = |hidden: f64| {
             let speeds = [here.anticipated_speed, there.anticipated_speed + hidden];
-            if model.minds_offside(keeps) { model.without_passing(toward, me.pace.speed, leaders, speeds) } else { speeds }
+            if model.minds_offside(rule) { model.without_passing(toward, me.pace.speed, leaders, speeds) } else { speeds }
         };
         let harm = there.behind.map_or(0.0, |it| model.courtesy.harm(&me, there.ahead, &it));
         let bound = |hidden: f64| GainBound {
@@ -204,7 +205,7 @@ proptest! {
             section,
             band,
             courtesy: model.courtesy.relief(&me, &here) + harm,
-            slow_side: if keeps { model.keeping.toward(toward, leaders, me.pace.desired) } else { 0.0 },
+            slow_side: if rule.keeps() { model.keeping.toward(toward, leaders, me.pace.desired) } else { 0.0 },
         };
         prop_assert!(model.gain_at_most(&bound(hidden)) >= model.appraise(&situation).gain);
         // Only the comfort is left out where the longer look finds the same anticipated speed.
@@ -262,7 +263,7 @@ proptest! {
         sigma in prop_oneof![Just(0.0), Just(1e-3), Just(1.0)],
         rule in prop_oneof![Just(Rule::Threshold), Just(Rule::Logit)], headway_relaxation in 0.4..1.0_f64,
     ) {
-        let me = Driver { pace: Pace { speed, desired: 14.0, headway_relaxation }, acceleration: 0.0, follow, length: LENGTH };
+        let me = Driver { pace: Pace { speed, desired: 14.0, headway_relaxation }, acceleration: 0.0, follow, comfortable: 0.0, length: LENGTH };
         let model = Mcdm { rule, sigma, ..model };
         let situation = Situation { here, there, section, ..empty_road(me) };
         let appraisal = model.appraise(&situation);

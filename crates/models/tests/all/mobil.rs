@@ -4,8 +4,8 @@
 use crate::near::assert_near;
 use crate::situations::{ON_ROUTE, behind, driver, empty_road};
 use laneweave_models::change::{
-    Accelerations, Appraisal, IncentiveName, LaneChangeModel, LaneView, Mobil, RouteKeeping, RouteView,
-    Situation, Toward, Traffic,
+    Accelerations, Appraisal, IncentiveName, LaneChangeModel, LaneRule, LaneView, Mobil, RouteKeeping,
+    RouteView, Situation, Toward, Traffic,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Idm, Pace};
 use proptest::prelude::*;
@@ -22,7 +22,7 @@ static DRIVERS: FollowingModel = IDM;
 
 /// Left-hand side of the criterion [m/s²].
 fn advantage(model: &Mobil, toward: Toward, accelerations: &Accelerations) -> f64 {
-    let [own, others] = model.gains(toward, false, accelerations);
+    let [own, others] = model.gains(toward, LaneRule::Free, accelerations);
     own + model.politeness * others
 }
 
@@ -59,21 +59,24 @@ fn v44_the_worked_case_weighs_others_by_politeness() {
         let model = Mobil { politeness, ..Mobil::default() };
         let sum = advantage(&model, Toward::Offside, &WORKED);
         assert_near(sum, expected, 1e-6);
-        assert_eq!(sum > model.threshold(Toward::Offside, false), politeness < 1.0);
+        assert_eq!(sum > model.threshold(Toward::Offside, LaneRule::Free), politeness < 1.0);
     }
 }
 
 #[test]
 fn v44_in_european_traffic_the_fast_side_asks_four_tenths_and_the_slow_side_gives_two() {
-    assert_near(european().threshold(Toward::Nearside, false), -0.2, 1e-12);
-    assert_near(european().threshold(Toward::Offside, false), 0.4, 1e-12);
+    assert_near(european().threshold(Toward::Nearside, LaneRule::Free), -0.2, 1e-12);
+    assert_near(european().threshold(Toward::Offside, LaneRule::Free), 0.4, 1e-12);
     let symmetric = Mobil::default();
-    assert_eq!([Toward::Nearside, Toward::Offside].map(|it| symmetric.threshold(it, true)), [0.1; 2]);
+    assert_eq!(
+        [Toward::Nearside, Toward::Offside].map(|it| symmetric.threshold(it, LaneRule::NoPassingThere)),
+        [0.1; 2]
+    );
 }
 
 #[test]
 fn v44_in_european_traffic_only_the_follower_on_the_fast_lane_counts() {
-    let others = |toward| european().gains(toward, false, &WORKED)[1];
+    let others = |toward| european().gains(toward, LaneRule::Free, &WORKED)[1];
     assert_near(others(Toward::Offside), -2.761785 - 0.439446, 1e-12);
     assert_near(others(Toward::Nearside), 0.565107 - 0.147121, 1e-12);
 }
@@ -102,12 +105,17 @@ fn by_law_traffic_is_european_where_the_law_wants_drivers_on_the_slow_side_and_s
     for toward in [Toward::Offside, Toward::Nearside] {
         for [here, there] in [[None, slower(25.0)], [slower(25.0), None], [slower(16.0), slower(28.0)]] {
             let situation = between(toward, here, there);
-            for (keeps, same) in [(false, Mobil::default()), (true, european())] {
-                let situation = Situation { keeps_to_the_slow_side: keeps, ..situation };
+            let rules = [
+                (LaneRule::Free, Mobil::default()),
+                (LaneRule::SlowSide, Mobil::default()),
+                (LaneRule::NoPassingThere, european()),
+            ];
+            for (lane_rule, same) in rules {
+                let situation = Situation { lane_rule, ..situation };
                 let appraisal = by_law.appraise(&situation);
                 assert_eq!(appraisal, same.appraise(&situation));
                 let [by_law, same] = [by_law, same].map(LaneChangeModel::Mobil);
-                assert_eq!(by_law.minds_offside(keeps), same.minds_offside(keeps));
+                assert_eq!(by_law.minds_offside(lane_rule), same.minds_offside(lane_rule));
                 let for_it = |model: &LaneChangeModel| model.is_for_the_slow_side(&situation, &appraisal);
                 assert_eq!(for_it(&by_law), for_it(&same));
             }
@@ -195,7 +203,7 @@ proptest! {
         let accelerations = Accelerations { own, new_follower, old_follower };
         let sum = |at: usize| own[at] + new_follower[at] + old_follower[at];
         prop_assume!((sum(1) - sum(0)).abs() > 1e-9);
-        let is_above = advantage(&model, Toward::Offside, &accelerations) > model.threshold(Toward::Offside, false);
+        let is_above = advantage(&model, Toward::Offside, &accelerations) > model.threshold(Toward::Offside, LaneRule::Free);
         prop_assert_eq!(is_above, sum(1) > sum(0));
     }
 }

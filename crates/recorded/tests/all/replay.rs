@@ -174,6 +174,7 @@ fn fork() -> Network {
             left_border: border(1.75),
             right_border: border(-1.75),
             centre: border(0.0),
+            is_in_town: false,
             speed_limit: 20.0,
             following: following.iter().map(|it| LaneletIndex(*it)).collect(),
             left: None,

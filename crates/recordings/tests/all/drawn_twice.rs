@@ -19,6 +19,7 @@ fn lanelet(id: i64, from: (f64, f64), to: (f64, f64), following: &[u32]) -> Lane
         centre: Polyline::between(&left_border, &right_border).expect("it is a lane"),
         left_border,
         right_border,
+        is_in_town: false,
         speed_limit: 20.0,
         following: following.iter().map(|it| LaneletIndex(*it)).collect(),
         left: None,

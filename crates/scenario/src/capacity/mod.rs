@@ -117,7 +117,7 @@ impl Capacity {
         demand: &Demand,
         drivers: &[(Style, f64)],
     ) -> Capacity {
-        let queues = Queues::new(drivers, demand.fleet);
+        let queues = Queues::new(drivers, demand.fleet, network.law);
         Capacity::of(network, assignment, &inner_places(demand), &queues)
     }
 

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use laneweave_models::Style;
-use laneweave_network::{Phase, Program};
+use laneweave_network::{Phase, Program, RoadLaw};
 use laneweave_sim::Fleet;
 
 use super::side_by_side;
@@ -14,6 +14,7 @@ use super::stream::Mixture;
 pub(crate) struct Queues {
     drivers: Vec<(Style, f64)>,
     fleet: Fleet,
+    law: RoadLaw,
     /// Flows of lanes [veh/s], by limit [m/s] and curvature [1/m].
     streams: Known,
     /// Vehicles that pass in a green, by its length [s] and the limit [m/s].
@@ -23,14 +24,14 @@ pub(crate) struct Queues {
 }
 
 impl Queues {
-    pub(crate) fn new(drivers: &[(Style, f64)], fleet: Fleet) -> Queues {
+    pub(crate) fn new(drivers: &[(Style, f64)], fleet: Fleet, law: RoadLaw) -> Queues {
         let [streams, greens, beside] = [(); 3].map(|()| Known::default());
-        Queues { drivers: drivers.to_vec(), fleet, streams, greens, beside }
+        Queues { drivers: drivers.to_vec(), fleet, law, streams, greens, beside }
     }
 
     /// The vehicles and drivers under a limit [m/s], in a bend of this curvature [1/m]; 0: on a straight lane.
     pub(super) fn mixture(&self, limit: f64, curvature: f64) -> Mixture<'_> {
-        Mixture::new(limit, &self.drivers, &self.fleet).in_bend(curvature)
+        Mixture::new(limit, &self.drivers, &self.fleet, &self.law).in_bend(curvature)
     }
 
     /// The capacity of a single lane without a light, if it is alone [veh/s].
@@ -102,7 +103,8 @@ mod tests {
     fn a_larger_town_has_no_more_queues() {
         let counts = [2, 4].map(|streets| {
             let Prepared { world, .. } = prepared(streets);
-            let queues = Queues::new(&[(world.driver_parameters()[0].clone(), 1.0)], Fleet::default());
+            let queues =
+                Queues::new(&[(world.driver_parameters()[0].clone(), 1.0)], Fleet::default(), RoadLaw::FREE);
             let (network, assignment) = (world.network(), &world.assignment([0.0, 1.0]));
             lanes::loads(&Roads { network, assignment, queues: &queues });
             [&queues.streams, &queues.greens, &queues.beside].map(|it| it.0.borrow().len())

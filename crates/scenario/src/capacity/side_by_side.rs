@@ -4,8 +4,6 @@
 //! side have less capacity than as many single ones. A simulation gives this capacity: a straight road, with the same
 //! drivers, and a demand above capacity. For the default drivers its results are known in advance.
 
-use std::path::Path;
-
 use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
 use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
@@ -14,7 +12,7 @@ use laneweave_study::units::KMH_PER_MPS;
 
 use super::SECONDS_PER_HOUR;
 use crate::scenario;
-use crate::style::{DEFAULT_MIXTURE, StyleTemplate, find};
+use crate::style::Population;
 
 /// Travel time along the road at the limit [s].
 const LENGTH_S: f64 = 40.0;
@@ -30,14 +28,14 @@ const KNOWN_LANES: [usize; 3] = [2, 3, 4];
 /// For limits [km/h] and these numbers of lanes, the vehicles that leave the road in the counted time, in the default
 /// mixture of styles and classes. A test simulates them, and says what they are if drivers have changed.
 const KNOWN: [(f64, [u64; 3]); 8] = [
-    (30.0, [392, 596, 775]),
-    (50.0, [508, 761, 989]),
-    (60.0, [581, 800, 1059]),
-    (70.0, [605, 936, 1208]),
-    (80.0, [681, 996, 1369]),
-    (100.0, [682, 976, 1383]),
-    (120.0, [737, 997, 1397]),
-    (130.0, [728, 1006, 1432]),
+    (30.0, [442, 675, 909]),
+    (50.0, [563, 863, 1153]),
+    (60.0, [603, 933, 1245]),
+    (70.0, [651, 948, 1290]),
+    (80.0, [687, 997, 1355]),
+    (100.0, [690, 1067, 1422]),
+    (120.0, [693, 1066, 1400]),
+    (130.0, [725, 1059, 1442]),
 ];
 
 /// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, at a demand
@@ -56,13 +54,8 @@ fn known(lanes: usize, limit: f64) -> Option<u64> {
 
 /// Whether these are the default drivers in the default vehicles.
 fn are_default(drivers: &[(Style, f64)], fleet: &Fleet) -> bool {
-    let is_default = |((style, weight), (name, usual)): (&(Style, f64), &(&str, f64))| {
-        let built_in = || find(name, Path::new(""), String::new).and_then(|it| StyleTemplate::parse(&it));
-        weight == usual && style.name == *name && built_in().is_ok_and(|it| it.typical() == style)
-    };
     *fleet == scenario::Demand::default().fleet()
-        && drivers.len() == DEFAULT_MIXTURE.len()
-        && drivers.iter().zip(&DEFAULT_MIXTURE).all(is_default)
+        && Population::usual_mixture().is_ok_and(|it| Population::by_speed(&it) == drivers)
 }
 
 /// The vehicles that leave the road in the counted time.
@@ -94,11 +87,8 @@ mod tests {
 
     #[test]
     fn what_is_known_of_the_default_drivers_is_what_a_simulation_gives() {
-        let usual = |(name, weight): (&str, f64)| {
-            let source = find(name, Path::new(""), String::new).unwrap();
-            (StyleTemplate::parse(&source).unwrap().typical().clone(), weight)
-        };
-        let (drivers, fleet) = (DEFAULT_MIXTURE.map(usual), scenario::Demand::default().fleet());
+        let drivers = Population::by_speed(&Population::usual_mixture().unwrap());
+        let fleet = scenario::Demand::default().fleet();
         assert!(are_default(&drivers, &fleet) && !are_default(&drivers[..1], &fleet));
         let of_lanes = |limit: f64, lanes| simulated(lanes, limit / KMH_PER_MPS, &drivers, &fleet).unwrap();
         let simulated = KNOWN.map(|(limit, _)| (limit, KNOWN_LANES.map(|lanes| of_lanes(limit, lanes))));

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_models::{Style, bends};
+use laneweave_network::RoadLaw;
 use laneweave_sim::{Class, Fleet, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
 
 /// Vehicles of one class with drivers of one style.
@@ -29,8 +30,8 @@ impl Kind<'_> {
 pub(super) struct Mixture<'a>(Vec<Kind<'a>>);
 
 impl<'a> Mixture<'a> {
-    /// The vehicles of `fleet` with `drivers`, each style with its weight, under `limit` [m/s].
-    pub(super) fn new(limit: f64, drivers: &'a [(Style, f64)], fleet: &Fleet) -> Mixture<'a> {
+    /// The vehicles of `fleet` with `drivers`, each style with its weight, under `limit` [m/s] and `law`.
+    pub(super) fn new(limit: f64, drivers: &'a [(Style, f64)], fleet: &Fleet, law: &RoadLaw) -> Mixture<'a> {
         let total: f64 = drivers.iter().map(|(_, weight)| weight).sum();
         let classes = fleet.shares();
         let pairs = drivers.iter().flat_map(|driver| classes.iter().map(move |class| (driver, *class)));
@@ -38,7 +39,7 @@ impl<'a> Mixture<'a> {
             share: share * weight / total,
             style,
             class,
-            desired: class.desired_speed(style, limit),
+            desired: class.desired_speed(style, limit, law),
             standing_gap: OnceCell::new(),
         });
         Mixture(all.filter(|it| it.share > 0.0).collect())

@@ -50,7 +50,7 @@ fn log_likelihood(vehicle: &Vehicle, style: &Style, world: &World) -> f64 {
     let (speed, limit) = (vehicle.speed(), lanelet.speed_limit);
     let is_free = scene.ahead(scene.viewpoint(vehicle.spot)).is_none_or(|it| it.gap > FREE * speed)
         && speed > SPEEDING_UP * limit;
-    let faster = speed - vehicle.driver.class.desired_speed(style, limit);
+    let faster = speed - vehicle.driver.class.desired_speed(style, limit, &world.network().law);
     let off = if is_free { faster } else { faster.max(0.0) };
     -0.5 * (off / SPREAD) * (off / SPREAD)
 }

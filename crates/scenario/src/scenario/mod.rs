@@ -92,7 +92,8 @@ pub struct Scenario {
 pub struct MapOptions {
     /// Latitude and longitude [°] of the origin (0, 0); default: those of the map's first node, rounded to 0.1°.
     pub origin: Option<[f64; 2]>,
-    /// The traffic law: its speed limits apply where the map gives none; in Germany drivers keep to the slow side.
+    /// The traffic law: its speed limits apply where the map gives none, trucks and buses have limits of their own, and
+    /// some drivers keep to the slow side.
     pub law: Law,
     /// The side of the road on which traffic drives; default: the side that the map gives, otherwise right.
     pub driving_side: Option<DrivingSide>,

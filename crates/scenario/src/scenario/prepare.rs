@@ -171,10 +171,8 @@ fn prepare_with(
         World::new(Arc::clone(&network), driver_parameters.clone(), demand, setup)
             .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
     };
-    let typical: Vec<(Style, f64)> =
-        mixture.iter().map(|(it, weight)| (it.typical().clone(), *weight)).collect();
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
-    let queues = Queues::new(&typical, scenario.demand.fleet());
+    let queues = Queues::new(&Population::by_speed(&mixture), scenario.demand.fleet(), network.law);
     let (world, basis) = with_demand(scenario, build, |world| {
         let assignment = world.assignment(measured);
         Capacity::of(world.network(), &assignment, &inner_places(world.demand()), &queues)
@@ -198,7 +196,7 @@ fn prepare_with(
         basis,
         origins,
         capacity,
-        styles: typical.into_iter().map(|(Style { name, .. }, weight)| (name, weight)).collect(),
+        styles: mixture.iter().map(|(it, weight)| (it.typical().name.clone(), *weight)).collect(),
         mixture,
         threads,
         problems: map.problems,

@@ -64,16 +64,35 @@ impl Population {
         [driver_parameters, others].concat()
     }
 
+    /// Drivers who stand for those of the `mixture`, each with its weight: typical ones of each style, with all of its
+    /// desired speeds. Behind a slow driver nobody is faster, so that the capacity of a lane depends on the slow ones.
+    pub fn by_speed(mixture: &[(StyleTemplate, f64)]) -> Vec<(Style, f64)> {
+        const SPEEDS: u32 = 64;
+        let drivers = mixture.iter().flat_map(|(template, weight)| {
+            let drivers = template.by_speed(SPEEDS);
+            let each = weight / drivers.len() as f64;
+            drivers.into_iter().map(move |it| (it, each))
+        });
+        drivers.collect()
+    }
+
+    /// The styles of the default drivers, each with its weight.
+    ///
+    /// # Errors
+    /// None for the built-in styles.
+    pub fn usual_mixture() -> Result<Vec<(StyleTemplate, f64)>, Fault> {
+        let built_in = |(name, weight): &(&str, f64)| {
+            let source = find(name, Path::new(""), String::new)?;
+            Ok((StyleTemplate::parse(&source)?, *weight))
+        };
+        DEFAULT_MIXTURE.iter().map(built_in).collect()
+    }
+
     /// The default drivers.
     ///
     /// # Errors
     /// None for the built-in styles.
     pub fn usual(seed: u64) -> Result<Population, Fault> {
-        let built_in = |(name, weight): &(&str, f64)| {
-            let source = find(name, Path::new(""), String::new)?;
-            Ok((StyleTemplate::parse(&source)?, *weight))
-        };
-        let mixture: Vec<_> = DEFAULT_MIXTURE.iter().map(built_in).collect::<Result<_, Fault>>()?;
-        Population::draw(&mixture, seed)
+        Population::draw(&Population::usual_mixture()?, seed)
     }
 }

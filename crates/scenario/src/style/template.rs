@@ -94,6 +94,15 @@ impl StyleTemplate {
         &self.typical
     }
 
+    /// `count` typical drivers whose desired speeds are spread evenly over their distribution; one if it has none.
+    pub fn by_speed(&self, count: u32) -> Vec<Style> {
+        let Some(speed) = self.parameters.iter().find(|it| it.path == ["speed_factor"]) else {
+            return vec![self.typical.clone()];
+        };
+        let factors = (0..count).map(|it| speed.distribution.value((f64::from(it) + 0.5) / f64::from(count)));
+        factors.map(|speed_factor| Style { speed_factor, ..self.typical.clone() }).collect()
+    }
+
     /// The same style with another lane-change model.
     ///
     /// # Errors

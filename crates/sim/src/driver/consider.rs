@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use laneweave_models::Style;
 use laneweave_models::change::{Appraisal, LaneChangeModel};
 use laneweave_models::follow::CarFollowing;
-use laneweave_network::{LaneUse, Position, Side};
+use laneweave_network::{Position, Side};
 
 use crate::driver::beliefs::Beliefs;
 use crate::driver::choice::{Choice, desire};
 use crate::driver::leave::departure;
 use crate::driver::me::{Attending, Me};
-use crate::driver::perceive::{Perception, driver_of};
+use crate::driver::perceive::{Perception, driver_of, lane_rule};
 use crate::driver::plan::{Ask, Concern, Note, Outbox, Plan, Request};
 use crate::driver::stuck::is_stuck;
 use crate::driver::turn::next_turn;
@@ -160,8 +160,7 @@ fn follow_route(
 
 /// Whether a driver would pass its leader in the overtaking lane before its next turn, although it has to stay behind.
 fn minds_offside(scene: &Scene, me: &Me) -> bool {
-    let (network, change) = (scene.network, &me.style.change);
-    change.minds_offside(network.lane_use == LaneUse::SlowSide) && would_pass(scene, me)
+    me.style.change.minds_offside(lane_rule(scene, me.spot)) && would_pass(scene, me)
 }
 
 /// Whether its leader in the overtaking lane, which it may not pass, will hold a driver up more than its own leader.

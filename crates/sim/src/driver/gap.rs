@@ -1,7 +1,7 @@
 //! The gap in the lane beside: whether a driver accepts it, and which driver could make it larger.
 
 use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
-use laneweave_models::follow::{Ahead, CarFollowing, Pace};
+use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::driver::lane_end::lane_end;
@@ -17,6 +17,8 @@ use crate::state::lane::{LaneChangeKind, LaneChangeState, Phase};
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 
+/// Time in which a driver who brakes comfortably stays secure at its speed (ours) [s].
+const TO_BRAKE: f64 = 0.5;
 /// Desire that counts for the accepted time gap in a discretionary change (ours).
 const VOLUNTARY_DESIRE: f64 = 0.3;
 /// A driver who lets another in leaves this much beyond its usual gap [m].
@@ -122,9 +124,10 @@ impl Pairing<'_> {
     /// The reason why it is not accepted.
     pub fn accepted(&self, safety: &Safety, dt: f64) -> Result<(), (Refusal, GapPair)> {
         let Pairing { follower, leader } = *self;
-        let demanded = follower.follow.acceleration(follower.pace, Some(leader));
+        let demanded = follower.demanded(leader);
         let pair = GapPair { gap: leader.gap, follower: follower.pace.speed, leader: leader.speed, demanded };
-        safety.accept(pair, dt).map_err(|why| (why, pair))
+        let time = if follower.comfortable > 0.0 { dt.max(TO_BRAKE) } else { dt };
+        safety.accept(pair, time).map_err(|why| (why, pair))
     }
 }
 

@@ -5,7 +5,9 @@ mod gain_bound;
 
 use std::borrow::Cow;
 
-use laneweave_models::change::{Behind, Driver, LaneView, Merging, RouteView, SIGHT, Situation, Toward};
+use laneweave_models::change::{
+    Behind, Driver, LaneRule, LaneView, Merging, RouteView, SIGHT, Situation, Toward,
+};
 use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::{Beside, LaneUse, Side};
 
@@ -39,6 +41,7 @@ pub fn perceive<'a>(scene: &Scene<'a>, me: Spot, side: Side) -> Option<Situation
 #[inline]
 pub fn driver_of<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
+    let style = scene.style_of(driver);
     Driver {
         pace: Pace {
             speed: motion.speed,
@@ -46,7 +49,8 @@ pub fn driver_of<'a>(scene: &Scene<'a>, spot: Spot) -> Driver<'a> {
             headway_relaxation: f64::from(motion.headway_relaxation),
         },
         acceleration: f64::from(motion.acceleration),
-        follow: &scene.style_of(driver).follow,
+        follow: &style.follow,
+        comfortable: style.manner.comfortable_deceleration,
         length: f64::from(motion.length),
     }
 }
@@ -60,6 +64,7 @@ pub(crate) struct Perception<'s, 'a> {
     /// How far ahead it sees [m].
     reach: f64,
     beliefs: Beliefs<'a>,
+    lane_rule: LaneRule,
     sight: LaneSight,
     here: LaneView<'a>,
     /// It can no longer follow its usual route, and takes another one.
@@ -106,6 +111,7 @@ impl<'s, 'a> Perception<'s, 'a> {
             from,
             reach,
             beliefs,
+            lane_rule: lane_rule(scene, spot),
             sight,
             here,
             takes_another_route,
@@ -140,19 +146,14 @@ impl<'s, 'a> Perception<'s, 'a> {
         let here = LaneView { route: route_here, ..self.here };
         let there = lane_view(self.scene, &self.me, &sight, route_there);
         let (me, band, merging) = (self.me, self.beliefs.band, self.merging(side, from, &sight));
-        let (toward, keeps_to_the_slow_side) = (self.toward(side), self.keeps_to_the_slow_side());
-        Situation { toward, me, here, there, section, band, keeps_to_the_slow_side, merging }
+        let (toward, lane_rule) = (self.toward(side), self.lane_rule);
+        Situation { toward, me, here, there, section, band, lane_rule, merging }
     }
 
     /// Where the lane on `side` lies.
     fn toward(&self, side: Side) -> Toward {
         let offside = self.scene.network.driving_side.overtaking();
         if side == offside { Toward::Offside } else { Toward::Nearside }
-    }
-
-    /// Whether the law wants drivers on the slow side.
-    fn keeps_to_the_slow_side(&self) -> bool {
-        self.scene.network.lane_use == LaneUse::SlowSide
     }
 
     /// The length of road on which the speeds of the own lane and of the lane at `from` are compared [m], and what
@@ -285,5 +286,20 @@ fn route_view(scene: &Scene, from: Viewpoint, waypoint: &Waypoint, beliefs: Beli
         remaining: waypoint.last_place - from.x,
         onward: beliefs.own * (waypoint.time - behind).max(0.0) + added,
         alternative: alternative.map(|it| beliefs.other * (it - behind).max(0.0) + added_beside),
+    }
+}
+
+/// What the law asks of a driver about lanes.
+pub(crate) fn lane_rule(scene: &Scene, spot: Spot) -> LaneRule {
+    let (network, driver) = (scene.network, scene.driver(spot));
+    let (chain, x) = (network.chain(spot.chain), scene.motion(spot).x);
+    match network.lane_use(chain, x, driver.class.is_long()) {
+        LaneUse::Free => LaneRule::Free,
+        LaneUse::SlowSide => LaneRule::NoPassingThere,
+        LaneUse::SlowSideIfSlower => {
+            let limit = chain.limit(x);
+            let is_slower = driver.class.desired_speed(scene.style(spot), limit, &network.law) < limit;
+            if is_slower { LaneRule::SlowSide } else { LaneRule::Free }
+        }
     }
 }

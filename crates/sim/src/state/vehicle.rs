@@ -1,6 +1,7 @@
 //! Classes of vehicles.
 
 use laneweave_models::Style;
+use laneweave_network::RoadLaw;
 use serde::{Deserialize, Serialize};
 
 /// No vehicle is longer than this [m].
@@ -72,8 +73,6 @@ pub struct Body {
     pub width: f64,
     /// Maximum acceleration [m/s²].
     pub strength: f64,
-    /// Maximum speed of the class: its drivers treat it as the limit where the road allows more [m/s].
-    pub top_speed: f64,
 }
 
 impl Class {
@@ -84,18 +83,10 @@ impl Class {
     #[inline]
     pub fn body(self) -> &'static Body {
         match self {
-            Class::Car => {
-                &Body { name: "car", length: 4.5, width: 1.8, strength: 3.0, top_speed: f64::INFINITY }
-            }
-            Class::Truck => {
-                &Body { name: "truck", length: 12.0, width: 2.5, strength: 1.0, top_speed: 80.0 / 3.6 }
-            }
-            Class::Bus => {
-                &Body { name: "bus", length: 12.0, width: 2.55, strength: 1.2, top_speed: 80.0 / 3.6 }
-            }
-            Class::Motorcycle => {
-                &Body { name: "motorcycle", length: 2.2, width: 0.8, strength: 5.0, top_speed: f64::INFINITY }
-            }
+            Class::Car => &Body { name: "car", length: 4.5, width: 1.8, strength: 3.0 },
+            Class::Truck => &Body { name: "truck", length: 12.0, width: 2.5, strength: 1.0 },
+            Class::Bus => &Body { name: "bus", length: 12.0, width: 2.55, strength: 1.2 },
+            Class::Motorcycle => &Body { name: "motorcycle", length: 2.2, width: 0.8, strength: 5.0 },
         }
     }
 
@@ -111,9 +102,15 @@ impl Class {
         self.body().strength
     }
 
-    /// Desired speed [m/s] of a driver of `style` under the limit `limit` [m/s].
+    /// Desired speed [m/s] of a driver of `style` under this `law` where the limit of the road is `limit` [m/s].
     #[inline]
-    pub fn desired_speed(self, style: &Style, limit: f64) -> f64 {
-        limit.min(self.body().top_speed) * style.speed_factor
+    pub fn desired_speed(self, style: &Style, limit: f64, law: &RoadLaw) -> f64 {
+        self.allowed(limit, law) * style.speed_factor
+    }
+
+    /// The speed [m/s] that `law` allows it where the limit of the road is `limit` [m/s].
+    #[inline]
+    pub fn allowed(self, limit: f64, law: &RoadLaw) -> f64 {
+        if self.is_long() { limit.min(law.limit_of_long) } else { limit }
     }
 }

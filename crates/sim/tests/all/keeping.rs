@@ -6,8 +6,8 @@ use crate::roads::{Road, drivers};
 use laneweave_models::Style;
 use laneweave_models::change::{Keeping, LaneChangeModel, Mcdm};
 use laneweave_models::follow::{FollowingModel, Fvdm};
-use laneweave_network::{ChainIndex, LaneUse, Network, Side};
-use laneweave_sim::{Class, Event, LaneChangeKind, Placement, Setup, World};
+use laneweave_network::{ChainIndex, LaneUse, Network, RoadLaw, Side};
+use laneweave_sim::{Class, Event, LaneChangeKind, Placement, Setup, Vehicle, World};
 
 /// A driver of the shipped kind: the weights of `style`, with the thresholds and the weight of keeping of the styles.
 fn shipped(style: Style, keeping: f64) -> Style {
@@ -25,7 +25,7 @@ fn styles(keeping: f64) -> Vec<Style> {
 
 fn motorway(lane_use: LaneUse, is_mirrored: bool) -> Network {
     let mut network = Road { lanes: 3, length: 5000.0, is_mirrored, ..Road::default() }.network();
-    network.lane_use = lane_use;
+    network.law.lane_use = lane_use;
     network
 }
 
@@ -118,6 +118,55 @@ fn drivers_do_not_go_back_and_forth_between_keeping_and_overtaking() {
     }
 }
 
+#[test]
+fn in_towns_long_vehicles_keep_to_the_slow_side_and_cars_choose_freely() {
+    let street = |is_in_town| {
+        let road = Road { lanes: 3, length: 5000.0, limit: 50.0 / 3.6, is_in_town, ..Road::default() };
+        let mut network = road.network();
+        network.law = RoadLaw { lane_use: LaneUse::SlowSide, ..RoadLaw::FREE };
+        traffic(network, 0.08, 900.0)
+    };
+    let [[cars, trucks], [cars_outside, _]] = [true, false].map(|it| on_the_slow_lane(street(it), is_long));
+    assert!(trucks > 0.7 && cars < 0.5 && cars_outside > cars + 0.2, "{trucks}, {cars} and {cars_outside}");
+}
+
+#[test]
+fn where_only_slower_traffic_keeps_to_the_slow_side_faster_drivers_choose_freely() {
+    let with = |lane_use| on_the_slow_lane(traffic(motorway(lane_use, false), 0.08, 900.0), is_slower);
+    let [faster, slower] = with(LaneUse::SlowSideIfSlower);
+    let [faster_free, slower_free] = with(LaneUse::Free);
+    assert!(slower > slower_free + 0.2, "{slower} and {slower_free}");
+    // They keep away from the lane of the slower ones.
+    assert!(faster < faster_free + 0.1, "{faster} and {faster_free}");
+    // Both may pass on either side.
+    assert!(passes(LaneUse::SlowSideIfSlower, 0.08, 22.0));
+}
+
+fn is_long(vehicle: &Vehicle, _: &World) -> bool {
+    vehicle.driver.class.is_long()
+}
+
+fn is_slower(vehicle: &Vehicle, world: &World) -> bool {
+    let (driver, network) = (vehicle.driver, world.network());
+    let limit = network.chain(vehicle.spot.chain).limit(vehicle.x());
+    driver.class.desired_speed(vehicle.style(), limit, &network.law) < limit
+}
+
+/// The shares of the distance that is driven on the slow lane by vehicles of two groups: the others, and these.
+fn on_the_slow_lane(mut world: World, is_one: impl Fn(&Vehicle, &World) -> bool) -> [f64; 2] {
+    let mut driven = [[0.0; 2]; 2];
+    for step in 0..9000 {
+        world.step();
+        if step >= 3000 && step % 5 == 0 {
+            for it in world.vehicles() {
+                let group = &mut driven[usize::from(is_one(&it, &world))];
+                group[usize::from(it.spot.chain.at() != 0)] += it.speed();
+            }
+        }
+    }
+    driven.map(|[slow, other]| slow / (slow + other))
+}
+
 /// A driver who keeps its lane and its speed behind any leader.
 fn unyielding() -> Style {
     let follow = Fvdm { sensitivity: 0.0, relative_sensitivity: 0.0, ..Fvdm::default() };
@@ -129,7 +178,7 @@ fn unyielding() -> Style {
 /// in the fast lane.
 fn passes(lane_use: LaneUse, keeping: f64, speed: f64) -> bool {
     let mut network = Road { lanes: 2, length: 4000.0, ..Road::default() }.network();
-    network.lane_use = lane_use;
+    network.law.lane_use = lane_use;
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
     let styles = vec![shipped(drivers::conservative(), keeping), unyielding()];
     let mut world =

@@ -4,7 +4,7 @@ use crate::roads::{Road, drivers};
 use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Attention;
 use laneweave_models::Style;
-use laneweave_models::change::{ConstantHazard, LaneChangeModel, Situation, Toward};
+use laneweave_models::change::{ConstantHazard, LaneChangeModel, LaneRule, Situation, Toward};
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Network, Side};
 use laneweave_sim::{Class, Phase, Placement, Scene, Setup, Spot, Waypoint, World, perceive};
@@ -81,8 +81,8 @@ fn gaps_means_and_prospects_of_both_lanes_are_those_of_the_scene() {
     car(&mut world, 1, 495.0, 25.0);
     let scene = world.scene();
     let seen = look(&scene, &world, me, Side::Left);
-    let Situation { toward, me, here, there, section, band, keeps_to_the_slow_side, merging } = seen;
-    assert!(toward == Toward::Offside && !keeps_to_the_slow_side);
+    let Situation { toward, me, here, there, section, band, lane_rule, merging } = seen;
+    assert!(toward == Toward::Offside && lane_rule == LaneRule::Free);
     // A driver without a recommended route keeps its own.
     assert_eq!(band, f64::INFINITY);
     assert_eq!(

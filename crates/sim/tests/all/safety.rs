@@ -6,7 +6,9 @@ use crate::roads::{Road, drivers};
 use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Reading;
 use laneweave_models::Style;
-use laneweave_models::follow::{Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, IdmPlus, Krauss, Newell, Ovm};
+use laneweave_models::follow::{
+    Acc, FollowingModel, Fvdm, Gfm, GfmForm, Gipps, Idm, IdmPlus, Krauss, Newell, Ovm,
+};
 use laneweave_network::{ChainIndex, Network};
 use laneweave_sim::{Class, Placement, Setup, World};
 use proptest::prelude::*;

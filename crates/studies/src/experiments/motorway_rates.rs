@@ -1,6 +1,7 @@
 //! C1, the paper's first claim: on a motorway, the rate of lane changes is like MOBIL's.
 
 use laneweave::Fault;
+use laneweave::maps::Law;
 use laneweave::study::{Estimate, Estimated, Sheet, estimates};
 use laneweave::style::Model;
 
@@ -36,10 +37,16 @@ pub(crate) fn ratio(one: &Seen, other: &Seen) -> Option<f64> {
     (other > 0.0).then_some(one / other)
 }
 
-/// The row of the ratio at a `flow` [veh/h per lane].
-pub(crate) fn ratio_row(flow: f64, value: Option<Estimate>) -> Row {
+/// The row of the ratio at a `flow` [veh/h per lane] under a `law`.
+pub(crate) fn ratio_row(flow: f64, law: Law, value: Option<Estimate>) -> Row {
+    let under = match law {
+        Law::Germany => ", law of Germany",
+        Law::UnitedStates => "",
+    };
     Row {
-        what: format!("rate of discretionary changes divided by MOBIL's, {flow:.0} veh/h/lane on 3 lanes"),
+        what: format!(
+            "rate of discretionary changes divided by MOBIL's, {flow:.0} veh/h/lane on 3 lanes{under}"
+        ),
         unit: "",
         value,
         range: [0.7, 1.4],
@@ -69,7 +76,7 @@ pub(crate) fn motorway_rates(effort: &Effort) -> Result<Finding, Fault> {
         .iter()
         .zip(by_model[0].iter().zip(by_model[1]))
         .filter(|(flow, _)| **flow <= UP_TO)
-        .map(|(flow, (ours, mobil))| ratio_row(*flow, between(ours, mobil, ratio)))
+        .map(|(flow, (ours, mobil))| ratio_row(*flow, Law::UnitedStates, between(ours, mobil, ratio)))
         .collect();
     let labels = ["Flow [veh/h per lane]", "Discretionary lane changes [1/veh-km]"];
     let figure = estimates(Sheet::Page, "Lane changes on three lanes of a motorway", labels, &series).svg;
@@ -90,7 +97,7 @@ fn words(rows: &[Row], effort: &Effort) -> String {
     };
     format!(
         "# C1: on a motorway the rate of lane changes is like MOBIL's\n\n\
-         Three lanes of 5 km, 120 km/h, 10 % trucks, no law to keep to the slow side. The drivers are the usual mixture (one aggressive \
+         Three lanes of 5 km, 120 km/h, 10 % trucks, law of the USA, where only slower drivers keep to the slow side. The drivers are the usual mixture (one aggressive \
          to 7.4 conservative ones); for the other models only the decision to change lanes is replaced. {} seeds, the same arriving \
          vehicles for all models; changes between lanes that lead to the same place.\n\n{}\n{verdict}\n",
         effort.seeds,

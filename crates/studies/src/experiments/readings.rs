@@ -63,7 +63,7 @@ pub(crate) fn readings(effort: &Effort) -> Result<Finding, Fault> {
     let text = format!(
         "# The paper's formulas as printed, beside the repaired ones\n\n\
          The usual drivers in the repaired readings, then with one incentive in the reading as printed, then with all of them; and the paper's \
-         styles, which also follow and decide as printed. {} seeds, the same arriving vehicles for all; no law to keep to the slow side. The \
+         styles, which also follow and decide as printed. {} seeds, the same arriving vehicles for all; law of the USA, where only slower drivers keep to the slow side. The \
          thresholds are those of the usual drivers, which were chosen for the repaired readings.\n{text}",
         effort.seeds
     );

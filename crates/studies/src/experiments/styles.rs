@@ -45,7 +45,7 @@ pub(crate) fn styles(effort: &Effort) -> Result<Finding, Fault> {
     let text = format!(
         "# What the drivers of each style do\n\n\
          Every style that comes with laneweave, alone on the road: all drivers have it, 10 % of the vehicles are trucks. Means over {} seeds \
-         with 95 % intervals; no law to keep to the slow side. An accepted gap counts up to 200 m.\n\n\
+         with 95 % intervals; law of the USA, where only slower drivers keep to the slow side. An accepted gap counts up to 200 m.\n\n\
          {}{tables}",
         effort.seeds,
         words(&places[0].kinds, &places[0].values)

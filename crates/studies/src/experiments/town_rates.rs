@@ -273,7 +273,7 @@ fn words(models: &[OfModel], rows: &[Row], effort: &Effort) -> String {
         .collect();
     format!(
         "# C2: in a town the rate of lane changes follows the recorded one\n\n\
-         A town of {SIZE} streets in each direction (`laneweave generate town --size {SIZE}`), 10 % trucks, {} seeds, no law to keep to the slow \
+         A town of {SIZE} streets in each direction (`laneweave generate town --size {SIZE}`), 10 % trucks, {} seeds, law of the USA, where only slower drivers keep to the slow \
          side. Densities and flows are measured in boxes of all lanes side by side and a minute, by Edie's definitions. A box has at least 200 m of \
          lanes, so most boxes are on streets of two lanes; the whole town has many streets of one lane, on which nobody changes lanes.\n\n\
          {}Against the density of the boxes at all demands:\n\n{slopes}\n\

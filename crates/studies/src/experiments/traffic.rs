@@ -109,7 +109,7 @@ impl Traffic {
         scenario.run.seed = seed;
         scenario.run.threads = NonZero::new(1);
         let mut map = self.road.map().map_err(|error| Fault::bug("built-in map", error))?;
-        map.network.lane_use = self.law.lane_use();
+        map.network.law = self.law.rules();
         let mut simulation = Simulation::from_scenario_on(map, &scenario, &Origin::default())?;
         if !self.changes.is_empty() {
             simulation.change_styles(&self.changed_styles(&scenario)?)?;

@@ -301,7 +301,7 @@ fn put(simulation: &Simulation, [x, y]: [f64; 2], class: Class) -> Result<Deed, 
         .find(|it| it.x > at.x + position_m)
         .map_or(f64::INFINITY, |it| it.speed);
     let style = simulation.driver_parameters().first().map_or_else(String::new, |it| it.name.clone());
-    let speed_mps = lanelet.speed_limit.min(ahead).min(class.body().top_speed);
+    let speed_mps = class.allowed(lanelet.speed_limit, &network.law).min(ahead);
     let vehicle = NewVehicle { lanelet: lanelet.id, position_m, speed_mps, class, style, destination: None };
     let text = [format!("a {} ", class.body().name), format!("on lanelet {}", lanelet.id)];
     Ok(Deed { command: Command::Insert(vehicle), back: None, text })

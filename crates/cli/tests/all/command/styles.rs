@@ -86,11 +86,11 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
         format!("error: mine.toml:{gap}:1: unknown key \"time_gp\"; did you mean \"time_gap\"?")
     );
     assert_eq!(
-        refusal(|text| text.replace("time_gap = 1.0", "time_gap = -1")),
+        refusal(|text| text.replace("time_gap = 1.2", "time_gap = -1")),
         format!("error: mine.toml:{gap}:1: follow.time_gap is -1; choose 0.1 to 10 s")
     );
     assert_eq!(
-        refusal(|text| text.replace("time_gap = 1.0", "time_gap = nan")),
+        refusal(|text| text.replace("time_gap = 1.2", "time_gap = nan")),
         format!("error: mine.toml:{gap}:1: follow.time_gap is NaN; choose 0.1 to 10 s")
     );
     assert_eq!(
@@ -99,7 +99,7 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
     );
     assert_eq!(
         refusal(|text| text
-            .replace("time_gap = 1.0", "time_gap = { distribution = \"normal\", mean = 1, sd = 1 }")),
+            .replace("time_gap = 1.2", "time_gap = { distribution = \"normal\", mean = 1, sd = 1 }")),
         format!(
             "error: mine.toml:{gap}:1: follow.time_gap ranges from -inf to inf; \
              set its min and max: choose 0.1 to 10 s"
@@ -107,14 +107,14 @@ fn a_mistake_in_a_style_file_is_told_with_its_place() {
     );
     assert!(
         refusal(|text| text
-            .replace("time_gap = 1.0", "time_gap = { distribution = \"norma\", mean = 1, sd = 1 }"))
+            .replace("time_gap = 1.2", "time_gap = { distribution = \"norma\", mean = 1, sd = 1 }"))
         .ends_with("unknown value \"norma\"; did you mean \"normal\"?")
     );
     assert!(
-        refusal(|text| text.replace("sigma = 0.00125", "sigma = 0"))
+        refusal(|text| text.replace("sigma = 0.000875", "sigma = 0"))
             .contains("a logit rule without choice noise")
     );
-    assert!(refusal(|text| text.replace("model = \"idm\"", "")).contains("the key follow.model is missing"));
+    assert!(refusal(|text| text.replace("model = \"idm+\"", "")).contains("the key follow.model is missing"));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::explain::motorway;
 #[test]
 fn a_driver_who_may_not_pass_on_the_slow_side_says_so() {
     let mut world = motorway();
-    assert_eq!(world.network().lane_use, LaneUse::SlowSide);
+    assert_eq!(world.network().law.lane_use, LaneUse::SlowSide);
     let mut found = 0;
     for _ in 0..3000 {
         world.step();

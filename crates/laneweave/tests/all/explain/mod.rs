@@ -84,7 +84,8 @@ fn assert_refused_as_by_hand(twin: &Twin, account: &Account) {
         Hindrance::Ahead(refusal, _) => assert_eq!(by_hand, Some((0, refusal))),
         Hindrance::Behind(refusal, _) => assert_eq!(by_hand, Some((1, refusal))),
         Hindrance::TooLittleRoad => {
-            assert!(twin.road_left(account.vehicle) < 2.0 * twin.speed(account.vehicle))
+            let (left, needed) = (twin.road_left(account.vehicle), twin.road_to_cross(account.vehicle));
+            assert!(left < needed, "{left} m of {needed} m")
         }
         Hindrance::Junction => assert!(twin.road_left(account.vehicle) < 200.0, "nowhere else"),
         other => panic!("{other:?} on a straight road"),

@@ -17,6 +17,7 @@ pub(crate) struct Body {
     length: f64,
     desired: f64,
     headway_relaxation: f64,
+    acceleration: f64,
     parameters: usize,
     wants: Option<Side>,
     urgency: f64,
@@ -71,6 +72,7 @@ impl<'a> Twin<'a> {
                 length: f64::from(it.motion.length),
                 desired: f64::from(it.driver.desired),
                 headway_relaxation: f64::from(it.motion.headway_relaxation),
+                acceleration: f64::from(it.motion.acceleration),
                 parameters: it.driver.parameters as usize,
                 wants: (it.driver.phase == Phase::Wants).then_some(it.lane_change.side),
                 urgency: f64::from(it.lane_change.urgency),
@@ -147,14 +149,14 @@ impl<'a> Twin<'a> {
     fn acceleration(&self, body: &Body, ahead: Option<(f64, f64)>) -> f64 {
         let (v, v0) = (body.speed, body.desired);
         match &self.world.driver_parameters()[body.parameters].follow {
-            FollowingModel::Idm(idm) => {
+            FollowingModel::IdmPlus(it) => {
                 let interaction = ahead.map_or(0.0, |(gap, leader)| {
-                    let time_gap = (idm.time_gap * body.headway_relaxation).max(idm.time_gap.min(0.5));
-                    let braking = v * (v - leader) / (2.0 * (idm.acceleration * idm.deceleration).sqrt());
-                    let desired = idm.jam_gap + (v * time_gap + braking).max(0.0);
+                    let time_gap = (it.time_gap * body.headway_relaxation).max(it.time_gap.min(0.5));
+                    let braking = v * (v - leader) / (2.0 * (it.acceleration * it.deceleration).sqrt());
+                    let desired = it.jam_gap + (v * time_gap + braking).max(0.0);
                     (desired / gap.max(0.1)).powi(2)
                 });
-                idm.acceleration * (1.0 - (v / v0).powf(idm.exponent) - interaction)
+                it.acceleration * (1.0 - (v / v0).powf(it.exponent)).min(1.0 - interaction)
             }
             FollowingModel::Fvdm(fvdm) => {
                 let closing = ahead.map_or(0.0, |(_, leader)| (v - leader).max(0.0));
@@ -285,6 +287,32 @@ impl<'a> Twin<'a> {
             .map(|it| it.side)
     }
 
+    /// What `body` needs behind a new leader with this gap, speed and acceleration: its model behind a leader as fast
+    /// as itself, and comfortable braking for the rest.
+    fn demanded(&self, body: &Body, gap: f64, [leader, leader_acceleration]: [f64; 2]) -> f64 {
+        let (style, v) = (&self.world.driver_parameters()[body.parameters], body.speed);
+        let (comfortable, closing) = (style.manner.comfortable_deceleration, v - leader);
+        let wish = self.acceleration(body, Some((gap, leader)));
+        if closing <= 0.0 {
+            return wish;
+        }
+        let room = gap - style.follow.jam_gap();
+        let needed = |acceleration: f64| {
+            let way = leader * leader - 2.0 * room.max(0.1) * acceleration;
+            if leader * closing <= -2.0 * room.max(0.1) * acceleration && way > 0.0 {
+                -v * v * acceleration / way
+            } else {
+                closing * closing / (2.0 * room.max(0.1)) - acceleration
+            }
+        };
+        let is_calm = wish >= -0.5 && closing * closing <= gap;
+        let steady = needed(0.0);
+        let bounded =
+            wish.max(-(1.2 * needed(leader_acceleration.min(0.0))).max(comfortable * leader / v).max(0.5));
+        let early = if steady >= comfortable && room >= 1.0 { bounded.min(-steady) } else { bounded };
+        self.acceleration(body, Some((gap, v))).min(if is_calm { wish } else { early })
+    }
+
     /// The problem of the gap on `side`, ahead (0) or behind (1), with time step `dt`. The accepted share of the time
     /// gap is that of a discretionary change.
     pub(crate) fn refusal(
@@ -301,29 +329,31 @@ impl<'a> Twin<'a> {
         me.speed += own;
         let headway_relaxation = 1.0 - 0.3 * (1.0 - style.manner.tightest);
         let pressed = Body { headway_relaxation: headway_relaxation.min(me.headway_relaxation), ..me };
-        let check = |follower: &Body, gap: f64, leader: f64| {
+        let time = dt.max(0.5);
+        let check = |follower: &Body, gap: f64, [leader, leader_acceleration]: [f64; 2]| {
             let closing = (follower.speed - leader).max(0.0);
             let stopping = |v: f64| v * v / 16.0;
             let safety = &style.safety;
-            let needed = (stopping(follower.speed) - stopping(leader)).max(0.0) + follower.speed * dt;
+            let needed = (stopping(follower.speed) - stopping(leader)).max(0.0) + follower.speed * time;
             if gap < safety.min_gap {
                 Some(Refusal::Short)
             } else if closing > 0.0 && gap / closing < safety.min_time_to_collision {
                 Some(Refusal::TimeToCollision)
             } else if closing * closing / (2.0 * gap) > safety.max_deceleration {
                 Some(Refusal::Forced)
-            } else if self.acceleration(follower, Some((gap, leader))) < -safety.max_deceleration {
+            } else if self.demanded(follower, gap, [leader, leader_acceleration]) < -safety.max_deceleration {
                 Some(Refusal::Demanded)
             } else {
                 (gap < needed).then_some(Refusal::Insecure)
             }
         };
-        let ahead =
-            there[0].and_then(|(it, gap)| check(&pressed, gap + otherwise.gaps[0], it.speed + leader));
+        let ahead = there[0].and_then(|(it, gap)| {
+            check(&pressed, gap + otherwise.gaps[0], [it.speed + leader, it.acceleration])
+        });
         let behind = || {
             there[1].and_then(|(it, gap)| {
                 let it = Body { speed: it.speed + follower, ..it };
-                check(&it, gap + otherwise.gaps[1], me.speed)
+                check(&it, gap + otherwise.gaps[1], [me.speed, me.acceleration])
             })
         };
         ahead.map(|it| (0, it)).or_else(|| behind().map(|it| (1, it)))
@@ -345,6 +375,12 @@ impl<'a> Twin<'a> {
     /// Remaining road to the end [m].
     pub(crate) fn road_left(&self, id: u32) -> f64 {
         self.length - self.me(id).x
+    }
+
+    /// Road on which a vehicle crosses the line in a change without urgency [m].
+    pub(crate) fn road_to_cross(&self, id: u32) -> f64 {
+        let me = self.me(id);
+        0.5 * self.world.driver_parameters()[me.parameters].manner.change_duration * me.speed
     }
 
     /// Speed of a vehicle [m/s].

@@ -6,7 +6,7 @@ use laneweave_models::change::{LaneView, Situation};
 /// mean spacings: the effect of 10 cm of noise and smoothing.
 const GAP: f64 = 0.5;
 const REMAINING: f64 = 1.0;
-const SPEED: f64 = 0.3;
+const SPEED: f64 = 0.45;
 const TIME: f64 = 0.1;
 const SPACING: f64 = 0.01;
 

@@ -26,6 +26,7 @@ use std::collections::hash_map::Entry;
 use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Polyline};
 
 use crate::contents::Contents;
+use crate::drawing::Surroundings;
 use crate::error::MapError;
 use crate::graph::Graph;
 use crate::law::Law;
@@ -63,7 +64,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     problems.extend(heaps);
     problems.sort_by_key(|it| it.line);
     let mut network = Network::new(lanelets, options.driving_side.unwrap_or_default())?;
-    network.lane_use = options.law.lane_use();
+    network.law = options.law.rules();
     Ok(Map { network, graph, rules: Vec::new(), contents, problems, origin: None })
 }
 
@@ -75,7 +76,7 @@ fn shaped<'a>(
     problems: &mut Vec<Problem>,
 ) -> (Vec<&'a LaneletElement>, Places, Vec<Lanelet>) {
     let signs = SpeedSigns::of(&document.signs, problems);
-    let of_scenario = speed::default(law, &document.tags);
+    let of_scenario = rules::surroundings_of(&document.tags);
     let (mut elements, mut places, mut lanelets) = (Vec::new(), Places::new(), Vec::new());
     for element in &document.lanelets {
         let Entry::Vacant(place) = places.entry(element.id) else {
@@ -86,7 +87,9 @@ fn shaped<'a>(
         let lanelet = if rules::is_for_cars(element) { bare(element, problems) } else { None };
         place.insert(lanelet.as_ref().map(|_| LaneletIndex(lanelets.len() as u32)));
         let Some(mut lanelet) = lanelet else { continue };
-        lanelet.speed_limit = speed::limit(element, &signs, law, of_scenario, of_law, problems);
+        let surroundings = rules::surroundings(element, of_scenario);
+        lanelet.is_in_town = surroundings == Surroundings::Town;
+        lanelet.speed_limit = speed::limit(element, &signs, law, surroundings, of_law, problems);
         elements.push(element);
         lanelets.push(lanelet);
         if rules::is_two_way(element) {

@@ -3,7 +3,7 @@
 //! After the documentation of CommonRoad's XML format, version 2020a.
 
 use super::element::LaneletElement;
-use crate::drawing::Crossing;
+use crate::drawing::{Crossing, Surroundings};
 
 /// Types of lanelets on which cars drive.
 const ROADS: [&str; 10] = [
@@ -54,6 +54,26 @@ pub(super) fn is_for_cars(lanelet: &LaneletElement) -> bool {
 /// Whether cars may use a lanelet against its direction, too.
 pub(super) fn is_two_way(lanelet: &LaneletElement) -> bool {
     lanelet.users_both_ways.iter().any(|it| CAR_USERS.contains(&it.as_str()))
+}
+
+/// The surroundings of a lanelet, by its types. For a lanelet without types, or with only `urban`, those of the
+/// scenario count: version 2020a requires a type, and files made from older ones say `urban` even on a motorway.
+pub(super) fn surroundings(lanelet: &LaneletElement, of_scenario: Surroundings) -> Surroundings {
+    let says_little = lanelet.types.iter().all(|it| it == "urban");
+    if says_little { of_scenario } else { surroundings_of(&lanelet.types) }
+}
+
+/// The surroundings that these types of lanelets, or tags of a scenario, stand for; where nothing is known, a town.
+pub(super) fn surroundings_of(kinds: &[String]) -> Surroundings {
+    let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
+    match () {
+        () if any(&["urban"]) => Surroundings::Town,
+        () if any(&["highway", "interstate", "mainCarriageWay", "accessRamp", "exitRamp"]) => {
+            Surroundings::Motorway
+        }
+        () if any(&["country", "rural"]) => Surroundings::Country,
+        () => Surroundings::Town,
+    }
 }
 
 /// The directions in which a line may be crossed, seen along the bound's points. For an `unknown` line nothing is

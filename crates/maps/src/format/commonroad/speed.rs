@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::element::{LaneletElement, Sign, problem};
-use crate::drawing::KMH_PER_MPS;
+use crate::drawing::{KMH_PER_MPS, Surroundings};
 use crate::law::Law;
 use crate::problem::Problem;
 
@@ -55,19 +55,20 @@ fn is_limit(speed: f64) -> bool {
 /// The limit of a lanelet [m/s].
 ///
 /// Its own element `speedLimit` comes first, then the lowest limit on its signs, then the legal limit for its types,
-/// which is added to `of_law` [km/h]. For a lanelet without types, or with only `urban`, `of_scenario` counts, the
-/// limit for the scenario's tags [km/h]: version 2020a requires a type, and files made from older ones say `urban`
-/// even on a motorway.
+/// which is added to `of_law` [km/h], in its surroundings.
 pub(super) fn limit(
     lanelet: &LaneletElement,
     signs: &SpeedSigns,
     law: Law,
-    of_scenario: f64,
+    surroundings: Surroundings,
     of_law: &mut Vec<f64>,
     problems: &mut Vec<Problem>,
 ) -> f64 {
-    let says_little = lanelet.types.iter().all(|it| it == "urban");
-    let default = if says_little { of_scenario } else { default(law, &lanelet.types) };
+    let default = match surroundings {
+        Surroundings::Town => law.limit(Some("road"), Some("urban")),
+        Surroundings::Motorway => law.limit(Some("highway"), Some("nonurban")),
+        Surroundings::Country => law.limit(Some("road"), Some("nonurban")),
+    };
     match lanelet.speed_limit {
         Some(limit) if is_limit(limit) => return limit,
         Some(_) => {
@@ -92,23 +93,9 @@ pub(super) fn limit(
     })
 }
 
-/// The limit where none is given [km/h]: the legal one for a road in town, a motorway, or another road out of town;
-/// where nothing is known, the limit in town.
-pub(super) fn default(law: Law, kinds: &[String]) -> f64 {
-    let any = |known: &[&str]| kinds.iter().any(|it| known.contains(&it.as_str()));
-    if any(&["urban"]) {
-        law.limit(Some("road"), Some("urban"))
-    } else if any(&["highway", "interstate", "mainCarriageWay", "accessRamp", "exitRamp"]) {
-        law.limit(Some("highway"), Some("nonurban"))
-    } else if any(&["country", "rural"]) {
-        law.limit(Some("road"), Some("nonurban"))
-    } else {
-        law.limit(Some("road"), Some("urban"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::rules::{surroundings, surroundings_of};
     use super::*;
 
     fn sign(id: i64, shown: &[(&str, Option<f64>)]) -> Sign {
@@ -125,8 +112,14 @@ mod tests {
         let mut problems = Vec::new();
         let signs = SpeedSigns::of(signs, &mut problems);
         let of_law = &mut Vec::new();
-        let limit =
-            limit(&lanelet, &signs, Law::Germany, default(Law::Germany, &tags), of_law, &mut problems);
+        let limit = limit(
+            &lanelet,
+            &signs,
+            Law::Germany,
+            surroundings(&lanelet, surroundings_of(&tags)),
+            of_law,
+            &mut problems,
+        );
         ((limit * KMH_PER_MPS).round(), problems.iter().map(Problem::to_string).collect())
     }
 

@@ -68,7 +68,7 @@ impl<'a> Document<'a> {
         drop(self);
         match drawing.build() {
             Ok(mut map) => {
-                map.network.lane_use = options.law.lane_use();
+                map.network.law = options.law.rules();
                 problems.extend(map.problems);
                 problems.sort_by_key(|it| it.line);
                 Ok(Map { contents, problems, origin, ..map })

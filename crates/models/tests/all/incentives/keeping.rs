@@ -5,7 +5,7 @@ use crate::near::assert_near;
 use crate::situations::{driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::Repaired;
-use laneweave_models::change::{Incentive, Keeping, Mcdm, Situation, Toward};
+use laneweave_models::change::{Incentive, Keeping, LaneRule, Mcdm, Situation, Toward};
 use laneweave_models::follow::Ahead;
 
 #[test]
@@ -29,24 +29,29 @@ fn keeping_asks_a_driver_to_the_slow_side_and_holds_it_there_where_the_law_has_i
     let keeping = Keeping { weight: 1.0, stay: 20.0 };
     let mut situation = empty_road(driver(&IDM, 30.0, 30.0));
     situation.there.ahead = Some(Ahead::steady(100.0, 20.0));
-    let earns = |toward, keeps, situation: &Situation<'static>| {
-        let situation = Situation { toward, keeps_to_the_slow_side: keeps, ..*situation };
+    let earns = |toward, lane_rule, situation: &Situation<'static>| {
+        let situation = Situation { toward, lane_rule, ..*situation };
         keeping.earning(&situation, chances(1.0))
     };
-    assert_near(earns(Toward::Nearside, true, &situation), 0.25, 1e-12);
-    assert_near(earns(Toward::Offside, true, &situation), -1.0, 1e-12);
-    std::mem::swap(&mut situation.here, &mut situation.there);
-    assert_near(earns(Toward::Nearside, true, &situation), 1.0, 1e-12);
-    assert_near(earns(Toward::Offside, true, &situation), -0.25, 1e-12);
-    for toward in [Toward::Nearside, Toward::Offside] {
-        assert_eq!(earns(toward, false, &situation), 0.0);
+    let sides = [Toward::Nearside, Toward::Offside];
+    for rule in [LaneRule::SlowSide, LaneRule::NoPassingThere] {
+        let mut situation = situation;
+        for expected in [[0.25, -1.0], [1.0, -0.25]] {
+            sides.into_iter().zip(expected).for_each(|(toward, earning)| {
+                assert_near(earns(toward, rule, &situation), earning, 1e-12);
+            });
+            std::mem::swap(&mut situation.here, &mut situation.there);
+        }
+    }
+    for toward in sides {
+        assert_eq!(earns(toward, LaneRule::Free, &situation), 0.0);
     }
 }
 
 #[test]
 fn keeping_asks_nobody_to_a_lane_that_it_would_have_to_leave_at_once_and_holds_nobody_in_one() {
     let keeping = Keeping { weight: 1.0, stay: 20.0 };
-    let law = Situation { keeps_to_the_slow_side: true, ..empty_road(driver(&IDM, 30.0, 30.0)) };
+    let law = Situation { lane_rule: LaneRule::NoPassingThere, ..empty_road(driver(&IDM, 30.0, 30.0)) };
     let mut situation = leaving_route(Situation { toward: Toward::Nearside, ..law }, 300.0);
     assert_near(keeping.earning(&situation, chances(1.0)), 0.25, 1e-12);
     situation.toward = Toward::Offside;

@@ -7,8 +7,8 @@ use crate::situations::{LITERAL_FVDM, ON_ROUTE, behind, driver, empty_road};
 use crate::weights::mcdm;
 use laneweave_models::Reading::{Literal, Repaired};
 use laneweave_models::change::{
-    Comfort, Courtesy, Incentive, IncentiveName, LaneChangeModel, LaneView, Merging, RouteView, Row,
-    Situation, Speed, Urgency, anticipated_speed, discomfort, urgency,
+    Comfort, Courtesy, Incentive, IncentiveName, LaneChangeModel, LaneRule, LaneView, Merging, RouteView,
+    Row, Situation, Speed, Urgency, anticipated_speed, discomfort, urgency,
 };
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
@@ -210,7 +210,8 @@ fn an_appraisal_has_the_yield_and_the_weight_of_each_incentive_in_its_row() {
     let mut model = mcdm(Repaired, [1.0, 2.0, 3.0, 4.0], 1.1);
     model.urgency.weight = 5.0;
     model.keeping.weight = 6.0;
-    let situation = Situation { keeps_to_the_slow_side: true, ..leaving_route(between_followers(), 40.0) };
+    let situation =
+        Situation { lane_rule: LaneRule::NoPassingThere, ..leaving_route(between_followers(), 40.0) };
     let chances = model.returning.chances(&situation);
     let expected = [
         (IncentiveName::Speed, 1.0, model.speed.earning(&situation, chances)),

@@ -1,7 +1,7 @@
 //! Situations for tests: a driver on an empty road; a test then fills its lanes.
 
 use laneweave_models::Reading::Literal;
-use laneweave_models::change::{Behind, Driver, Flow, LaneView, RouteView, Situation, Toward};
+use laneweave_models::change::{Behind, Driver, Flow, LaneRule, LaneView, RouteView, Situation, Toward};
 use laneweave_models::follow::{FollowingModel, Fvdm, Pace};
 
 /// Net length of every vehicle [m].
@@ -19,7 +19,7 @@ pub(crate) static LITERAL_FVDM: FollowingModel = FollowingModel::Fvdm(Fvdm {
 
 /// A relaxed driver.
 pub(crate) fn driver(follow: &FollowingModel, speed: f64, desired: f64) -> Driver<'_> {
-    Driver { pace: Pace::new(speed, desired), acceleration: 0.0, follow, length: LENGTH }
+    Driver { pace: Pace::new(speed, desired), acceleration: 0.0, follow, comfortable: 0.0, length: LENGTH }
 }
 
 /// A vehicle `gap` [m] behind.
@@ -43,7 +43,7 @@ pub(crate) fn empty_road(me: Driver<'_>) -> Situation<'_> {
         there: lane,
         section: 200.0,
         band: 0.0,
-        keeps_to_the_slow_side: false,
+        lane_rule: LaneRule::Free,
         merging: [None; 2],
     }
 }

@@ -45,7 +45,7 @@ fn draws_depend_on_seed_style_and_number_only() {
 #[test]
 fn several_parameters_are_drawn_independently_of_each_other() {
     let text = built_in("conservative").unwrap().text.replace(
-        "time_gap = 1.0",
+        "time_gap = 1.2",
         "time_gap = { distribution = \"lognormal\", mean = 1.2, sd = 0.3, min = 0.5, max = 3 }",
     );
     let template = StyleTemplate::parse(&Source { path: "own".into(), text }).unwrap();
@@ -57,7 +57,7 @@ fn several_parameters_are_drawn_independently_of_each_other() {
     let pairs: Vec<(f64, f64)> = (0..512)
         .map(|number| template.draw(&Random::new(1), 0, number).unwrap())
         .map(|style| match style.follow {
-            FollowingModel::Idm(idm) => (idm.time_gap, style.speed_factor),
+            FollowingModel::IdmPlus(it) => (it.time_gap, style.speed_factor),
             other => panic!("{other:?}"),
         })
         .collect();
@@ -86,7 +86,7 @@ fn the_built_in_styles_have_the_papers_weights_in_both_readings() {
         assert_eq!(it.route.reading, reading.into(), "{name}");
         let decision = match reading {
             Reading::Literal => (Rule::Threshold, 0.0, 0.0),
-            Reading::Repaired => (Rule::Logit, 0.01, 0.00125),
+            Reading::Repaired => (Rule::Logit, 0.007, 0.000875),
         };
         assert_eq!((it.rule, it.theta, it.sigma), decision, "{name}");
     }
@@ -121,8 +121,10 @@ fn the_other_characters_are_the_conservative_driver_but_for_what_their_names_say
 #[test]
 fn the_cautious_keep_longer_gaps_than_the_conservative_everywhere_and_drive_slower() {
     let [cautious, usual] = ["cautious", "conservative"].map(|it| template(it).typical().clone());
-    let (FollowingModel::Idm(gaps), FollowingModel::Idm(usual_gaps)) = (cautious.follow, usual.follow) else {
-        panic!("both follow by IDM")
+    let (FollowingModel::IdmPlus(gaps), FollowingModel::IdmPlus(usual_gaps)) =
+        (cautious.follow, usual.follow)
+    else {
+        panic!("both follow by IDM+")
     };
     assert!(gaps.time_gap > usual_gaps.time_gap && gaps.jam_gap > usual_gaps.jam_gap);
     assert!(cautious.safety.min_gap > usual.safety.min_gap);
@@ -195,7 +197,7 @@ fn a_fitted_style_has_draws_of_its_parameters() {
         _ => panic!("another model"),
     };
     assert_eq!(numbers(&template.drawn(1).unwrap()), (5.0, 0.2, 1.72));
-    assert_eq!(numbers(&template), (0.01, 0.44, 1.72));
+    assert_eq!(numbers(&template), (0.007, 0.44, 1.72));
     // All that is not drawn stays, with its random numbers.
     let drivers = |it: &StyleTemplate| it.draw(&Random::new(1), 0, 7).unwrap().speed_factor;
     assert_eq!(drivers(&template.drawn(0).unwrap()), drivers(&template));

@@ -30,8 +30,7 @@ impl Perception<'_, '_> {
         let is_courteous = model.courtesy.weight != 0.0;
         let relief = if is_courteous { model.courtesy.relief(&self.me, &self.here) } else { 0.0 };
         let mut best_anticipated_speed = None;
-        let keeps = self.keeps_to_the_slow_side();
-        let minds_offside = model.minds_offside(keeps);
+        let (keeps, minds_offside) = (self.lane_rule.keeps(), model.minds_offside(self.lane_rule));
         for side in Side::BOTH {
             let Some(from) = self.beside[side.at()] else { continue };
             let (section, routes) = self.routes(from);

@@ -24,12 +24,21 @@ pub(crate) struct Road {
     pub(crate) is_ring: bool,
     /// Whether it is the mirror image, with traffic on the left.
     pub(crate) is_mirrored: bool,
+    /// Whether it lies in a town.
+    pub(crate) is_in_town: bool,
 }
 
 impl Default for Road {
     fn default() -> Road {
-        let limit = 120.0 / 3.6;
-        Road { lanes: 1, length: 2000.0, limit, radius: f64::INFINITY, is_ring: false, is_mirrored: false }
+        Road {
+            lanes: 1,
+            length: 2000.0,
+            limit: 120.0 / 3.6,
+            radius: f64::INFINITY,
+            is_ring: false,
+            is_mirrored: false,
+            is_in_town: false,
+        }
     }
 }
 
@@ -68,6 +77,7 @@ impl Road {
             left_border,
             right_border,
             speed_limit: self.limit,
+            is_in_town: self.is_in_town,
             following: if next_row < self.rows() { vec![self.index(next_row, lane)] } else { vec![] },
             left,
             right,

@@ -1,6 +1,7 @@
 //! Lane changes: how often, what for, how long.
 
 use laneweave::Fault;
+use laneweave::maps::Law;
 use laneweave::study::{Moments, mean};
 use laneweave::style::Model;
 
@@ -34,13 +35,27 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
                 rows.extend(of_flow(&at, ours, mobil));
             }
             if lanes == 3 {
-                rows.push(ratio_row(*flow, between(ours, mobil, ratio)));
+                rows.push(ratio_row(*flow, Law::UnitedStates, between(ours, mobil, ratio)));
             }
         }
     }
+    rows.extend(german_ratios(effort)?);
     rows.extend(signs(effort)?);
     rows.extend(durations(effort)?);
     Ok(rows)
+}
+
+/// The ratios of rates under the law of Germany.
+fn german_ratios(effort: &Effort) -> Result<Vec<Row>, Fault> {
+    let law = Law::Germany;
+    let with = |model| FLOWS.map(|flow| Traffic { model, law, ..Traffic::on_motorway(3, flow) });
+    let [ours, mobil] = [None, Some(Model::Mobil)].map(|model| drive(effort, &with(model)));
+    let pairs = ours?.into_iter().zip(mobil?);
+    Ok(FLOWS
+        .iter()
+        .zip(pairs)
+        .map(|(flow, (ours, mobil))| ratio_row(*flow, law, between(&ours, &mobil, ratio)))
+        .collect())
 }
 
 /// Rate, gain and reversals at one flow.

@@ -8,6 +8,7 @@ mod following;
 mod lanes;
 mod lights;
 mod safety;
+mod speeds;
 
 use laneweave::Fault;
 
@@ -19,6 +20,7 @@ pub(crate) fn plausibility(effort: &Effort) -> Result<Finding, Fault> {
     let rows = [
         changes::rows(effort)?,
         lanes::rows(effort)?,
+        speeds::rows(effort)?,
         following::rows(effort)?,
         capacity::rows(effort)?,
         lights::rows(effort)?,

@@ -1,6 +1,7 @@
 //! Hard braking, and missed turns.
 
 use laneweave::Fault;
+use laneweave::maps::Law;
 use laneweave::style::Model;
 
 use crate::experiments::drive::{between, drive, drive_all, over};
@@ -32,13 +33,15 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
     };
     let mut rows = Vec::new();
     for (name, flow) in [("ramps.osm", 3000.0), ("town.osm", 1500.0)] {
-        let of = |style| Traffic { styles: vec![(style, 1.0)], ..on(name, flow) };
+        let of = |style| Traffic { styles: vec![(style, 1.0)], law: Law::Germany, ..on(name, flow) };
         let runs = drive(effort, &STYLES.map(of))?;
         let hard = |seen: &Seen| Some(100.0 * seen.counters.hard_brakings as f64 / seen.veh_km());
         let worst = STYLES.iter().zip(&runs).filter_map(|(style, runs)| Some((style, over(runs, hard)?)));
         let Some((style, value)) = worst.max_by(|a, b| a.1.mean.total_cmp(&b.1.mean)) else { continue };
         rows.push(Row {
-            what: format!("hard brakings on {name} at {flow:.0} veh/h, of the style with most ({style})"),
+            what: format!(
+                "hard brakings on {name} at {flow:.0} veh/h, law of Germany, of the style with most ({style})"
+            ),
             unit: "1/100 veh-km",
             value: Some(value),
             range: [0.0, 0.5],

@@ -6,7 +6,7 @@ use laneweave::{Decision, Fault, Phase, SideEvaluation, Simulation};
 use laneweave_calibration::{Choices, Fit, Prior};
 
 use crate::experiments::effort::Effort;
-use crate::experiments::traffic::Traffic;
+use crate::experiments::traffic::{Change, Traffic};
 use crate::in_parallel;
 
 /// The terms that are fitted, in their order; the first is the intercept.
@@ -26,6 +26,8 @@ pub(crate) fn traffic() -> Traffic {
     let mut traffic = Traffic::on_motorway(2, 1000.0);
     traffic.styles = vec![("conservative", 1.0)];
     traffic.times = [300.0, 850.0];
+    // Their weights are to be found, not the law of the road.
+    traffic.changes = vec![Change::Times("change.keeping.weight", 0.0)];
     traffic
 }
 

@@ -51,7 +51,7 @@ pub(crate) fn recovery(effort: &Effort) -> Result<Finding, Fault> {
     Ok(Finding { text, tables, rows, ..Finding::default() })
 }
 
-const ABOUT: &str = "Conservative drivers on 5 km of a motorway of two lanes at 1,000 veh/h/lane, 10 % trucks, no law to keep to the slow \
+const ABOUT: &str = "Conservative drivers on 5 km of a motorway of two lanes at 1,000 veh/h/lane, 10 % trucks, no wish to keep to the slow \
     side. The yields of speed and of the route are one on a motorway, so they are one term with the proportion of the true weights.\n\n\
     *Observed exactly*: what each driver saw when it considered lanes, and whether it wanted a change. *Seen by a drone*: 25 frames per \
     second with errors of 10 cm; desired speeds, waiting, and the phase of decisions are unknown, the threshold is known. *With choice \

@@ -14,7 +14,7 @@ pub(crate) struct Setting {
 }
 
 /// The choice noise of the prototype's drivers (σ = .014) over that of ours, and so of θ = 8 σ.
-const PROTOTYPE: f64 = 0.014 / 0.00125;
+const PROTOTYPE: f64 = 0.014 / 0.000875;
 /// One aggressive driver for so many conservative ones.
 const CONSERVATIVE: f64 = 7.4;
 
@@ -27,7 +27,7 @@ impl Setting {
     /// The same with the choice noise of the prototype's drivers.
     pub(crate) fn noisy() -> Setting {
         let mut setting = Setting { name: "motorway, drivers with choice noise", ..Setting::motorway() };
-        setting.traffic.changes = noise();
+        setting.traffic.changes.extend(noise());
         setting
     }
 

@@ -31,7 +31,7 @@ fn what_is_known_of_drivers_whom_a_drone_sees_brings_their_weights_nearer() {
     };
     let off = |it: &Seen, weight: usize| (it.shares[weight] - 1.0).abs();
     for weight in 0..WEIGHTS.len() {
-        assert!(off(&exact, weight) < 0.3 * off(&plain, weight), "{plain:?} {exact:?}");
+        assert!(off(&exact, weight) < 0.5 * off(&plain, weight), "{plain:?} {exact:?}");
         assert!(off(&ours, weight) < 0.5 * off(&plain, weight), "{plain:?} {ours:?}");
     }
     let [all, used] = ours.changes;
