@@ -85,7 +85,7 @@ fn per_thousand(seen: &Seen, count: u64) -> Option<f64> {
 }
 
 /// The median; `None` of nothing.
-fn median(values: &[f64]) -> Option<f64> {
+pub(crate) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied()

@@ -8,6 +8,7 @@ use laneweave::style::Model;
 use crate::experiments::drive::{between, drive, drive_all, over};
 use crate::experiments::effort::Effort;
 use crate::experiments::finding::Row;
+use crate::experiments::measures::median;
 use crate::experiments::motorway_rates::{rate, ratio, ratio_row};
 use crate::experiments::seen::Seen;
 use crate::experiments::traffic::{Arriving, Road, Traffic};
@@ -19,6 +20,7 @@ const BUSY: f64 = 700.0;
 
 const RATES: &str = ".124 highD (lower bound), .225 US commuters (Olsen et al.), .5 (Knoop et al. 2012)";
 const GAINS: &str = "1.65 m/s realised (Ahmed et al. 2022), 2 m/s wished (Vissim, m)";
+const LAGS: &str = "26.6 uncongested, 13.9 congested (Hill 2015, m); the range is ours";
 const DURATIONS: &str =
     "6.28, sd 2.0 (Olsen et al.), 5–6 (Toledo, Zohar 2007), lognormal (Wang, Li, Li 2014)";
 const OURS: &str = "ours: what separates drivers from coins";
@@ -39,10 +41,19 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
             }
         }
     }
+    rows.extend(four_lanes(effort)?);
     rows.extend(german_ratios(effort)?);
     rows.extend(signs(effort)?);
     rows.extend(durations(effort)?);
     Ok(rows)
+}
+
+/// Rate, gain and reversals on four lanes.
+fn four_lanes(effort: &Effort) -> Result<[Row; 4], Fault> {
+    const FLOW: f64 = 1100.0;
+    let with = |model| Traffic { model, ..Traffic::on_motorway(4, FLOW) };
+    let [ours, mobil] = &drive_all(effort, [None, Some(Model::Mobil)].map(with))?;
+    Ok(of_flow(&format!("{FLOW:.0} veh/h/lane on 4 lanes"), ours, mobil))
 }
 
 /// The ratios of rates under the law of Germany.
@@ -58,8 +69,8 @@ fn german_ratios(effort: &Effort) -> Result<Vec<Row>, Fault> {
         .collect())
 }
 
-/// Rate, gain and reversals at one flow.
-fn of_flow(at: &str, ours: &[Seen], mobil: &[Seen]) -> [Row; 3] {
+/// Rate, gain, gap and reversals at one flow.
+fn of_flow(at: &str, ours: &[Seen], mobil: &[Seen]) -> [Row; 4] {
     [
         Row {
             what: format!("discretionary changes per veh-km, {at}"),
@@ -74,6 +85,13 @@ fn of_flow(at: &str, ours: &[Seen], mobil: &[Seen]) -> [Row; 3] {
             value: over(ours, |it| it.gains.estimate().map(|it| it.mean)),
             range: [1.0, 2.5],
             source: GAINS,
+        },
+        Row {
+            what: format!("accepted gap to the new follower, median, {at}"),
+            unit: "m",
+            value: over(ours, |it| median(&it.gaps[1])),
+            range: [13.0, 40.0],
+            source: LAGS,
         },
         Row {
             what: format!("share reversed within 30 s, less MOBIL's, {at}"),
