@@ -26,9 +26,10 @@ async function scrubbed(browser, server, look) {
   await server.end();
 }
 
-/** A jammed motorway, scrubbed along its time line. */
+/** A jammed motorway, scrubbed along its time line. Drivers as printed miss turns, which are marks of importance. */
 export async function a_run_that_has_ended({ browser, program, home, folder, shots }) {
-  run(program, folder, 'run', path.join(home, 'maps/ramps.osm'), '--demand', '7000', '--duration', '300', '--out', 'jam', '--quiet');
+  const drivers = ['--style', 'paper-aggressive=1', '--style', 'paper-conservative=7.4'];
+  run(program, folder, 'run', path.join(home, 'maps/ramps.osm'), '--demand', '7000', '--duration', '300', ...drivers, '--out', 'jam', '--quiet');
   await scrubbed(browser, await view(program, ['jam'], folder), async (opened) => {
     // Time stands: what is waited for does not pass by.
     await opened.click(hook('pause'));
