@@ -1,7 +1,9 @@
 //! Which gaps are accepted.
 
 use crate::near::assert_near;
-use laneweave_models::change::{GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
+use crate::situations::driver;
+use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
+use laneweave_models::follow::{Ahead, FollowingModel, IdmPlus};
 use proptest::prelude::*;
 
 /// Time step [s].
@@ -28,6 +30,30 @@ fn v41_time_to_collision_and_the_deceleration_that_avoids_it() {
             assert_eq!(deceleration_to_avoid(gap, follower, leader), 0.0);
         }
     }
+}
+
+#[test]
+fn a_follower_who_brakes_comfortably_needs_its_time_gap_and_kinematics() {
+    let follow = FollowingModel::IdmPlus(IdmPlus {
+        acceleration: 2.0,
+        deceleration: 2.0,
+        time_gap: 1.0,
+        jam_gap: 2.0,
+        exponent: 4.0,
+    });
+    let with = |comfortable| Driver { comfortable, ..driver(&follow, 20.0, 40.0) };
+    let [model_alone, comfortable] = [0.0, 2.0].map(with);
+    // By hand: behind a leader at 16 m/s, 22 m ahead, s* = 2 + 20 + 20 · 4/(2 · 2) = 42 m: 2 (1 − (42/22)²).
+    let slower = Ahead::steady(22.0, 16.0);
+    assert_near(model_alone.demanded(slower), -5.289256, 1e-6);
+    // Behind one as fast as itself s* = 22 m: 0. It comes to the slower one with 2 · 16/20 = 1.6 m/s², which is more
+    // than 1.2 · 4²/(2 · 20).
+    assert_near(comfortable.demanded(slower), -1.6, 1e-12);
+    // 11 m are half of its time gap, however fast the leader: 2 (1 − 2²).
+    assert_near(comfortable.demanded(Ahead::steady(11.0, 19.9)), -6.0, 1e-12);
+    // Who does not close in is not braked for comfort.
+    let as_fast = Ahead::steady(11.0, 20.0);
+    assert_eq!(comfortable.demanded(as_fast), model_alone.demanded(as_fast));
 }
 
 #[test]

@@ -58,7 +58,7 @@ impl Queues {
         }
         let alone = lanes as f64 * self.stream(limit, 0.0);
         let left = || {
-            let flow = side_by_side::flow(lanes, limit, &self.drivers, &self.fleet);
+            let flow = side_by_side::flow(lanes, limit, &self.drivers, &self.fleet, &self.law);
             flow.map_or(1.0, |it| (it / alone).min(1.0))
         };
         self.beside.get([lanes as f64, limit], left)

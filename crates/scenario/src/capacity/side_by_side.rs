@@ -6,6 +6,7 @@
 
 use laneweave_generate::{Motorway, motorway};
 use laneweave_models::Style;
+use laneweave_network::RoadLaw;
 use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
 
 use laneweave_study::units::KMH_PER_MPS;
@@ -38,11 +39,18 @@ const KNOWN: [(f64, [u64; 3]); 8] = [
     (130.0, [725, 1059, 1442]),
 ];
 
-/// Flow over a road of so many `lanes` under `limit` [m/s], of `drivers`, each style with its weight, at a demand
-/// above capacity [veh/s]; `None` if there is no such road.
-pub(super) fn flow(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet) -> Option<f64> {
-    let known = known(lanes, limit).filter(|_| are_default(drivers, fleet));
-    let left = known.map_or_else(|| simulated(lanes, limit, drivers, fleet), Some);
+/// Flow over a road of so many `lanes` under `limit` [m/s] and the limit of `law` for long vehicles, of `drivers`, each
+/// style with its weight, at a demand above capacity [veh/s]; `None` if there is no such road.
+pub(super) fn flow(
+    lanes: usize,
+    limit: f64,
+    drivers: &[(Style, f64)],
+    fleet: &Fleet,
+    law: &RoadLaw,
+) -> Option<f64> {
+    let law = RoadLaw { limit_of_long: law.limit_of_long, ..RoadLaw::FREE };
+    let known = known(lanes, limit).filter(|_| law == RoadLaw::FREE && are_default(drivers, fleet));
+    let left = known.map_or_else(|| simulated(lanes, limit, drivers, fleet, law), Some);
     left.map(|it| it as f64 / COUNTED)
 }
 
@@ -59,14 +67,15 @@ fn are_default(drivers: &[(Style, f64)], fleet: &Fleet) -> bool {
 }
 
 /// The vehicles that leave the road in the counted time.
-fn simulated(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet) -> Option<u64> {
+fn simulated(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet, law: RoadLaw) -> Option<u64> {
     let road = Motorway {
         lanes,
         length_m: LENGTH_S * limit,
         speed_limit_kmh: limit * SECONDS_PER_HOUR / 1000.0,
         ..Motorway::default()
     };
-    let network = motorway(&road).ok()?.build().ok()?.network;
+    let mut network = motorway(&road).ok()?.build().ok()?.network;
+    network.law = law;
     let driver_parameters = drivers.iter().map(|(style, _)| style.clone()).collect();
     let shares =
         drivers.iter().zip(0..).map(|((_, weight), first)| Share { weight: *weight, first, count: 1 });
@@ -90,8 +99,22 @@ mod tests {
         let drivers = Population::by_speed(&Population::usual_mixture().unwrap());
         let fleet = scenario::Demand::default().fleet();
         assert!(are_default(&drivers, &fleet) && !are_default(&drivers[..1], &fleet));
-        let of_lanes = |limit: f64, lanes| simulated(lanes, limit / KMH_PER_MPS, &drivers, &fleet).unwrap();
+        let of_lanes = |limit: f64, lanes| {
+            simulated(lanes, limit / KMH_PER_MPS, &drivers, &fleet, RoadLaw::FREE).unwrap()
+        };
         let simulated = KNOWN.map(|(limit, _)| (limit, KNOWN_LANES.map(|lanes| of_lanes(limit, lanes))));
         assert_eq!(simulated, KNOWN);
+    }
+
+    #[test]
+    fn faster_trucks_bring_more_over_a_road() {
+        let drivers = Population::by_speed(&Population::usual_mixture().unwrap());
+        let fleet = scenario::Demand::default().fleet();
+        let flow = |limit_of_long| {
+            let law = RoadLaw { limit_of_long, ..RoadLaw::FREE };
+            flow(2, 120.0 / KMH_PER_MPS, &drivers, &fleet, &law).unwrap()
+        };
+        let [slow, fast] = [RoadLaw::FREE.limit_of_long, 105.0 / KMH_PER_MPS].map(flow);
+        assert!(fast > 1.02 * slow, "{fast} and {slow} veh/s");
     }
 }
