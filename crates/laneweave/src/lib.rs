@@ -33,8 +33,9 @@ pub use laneweave_network::{LightState, Side};
 pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};
 pub use laneweave_scenario::{
-    Bottleneck, COMMAND_COLUMNS, Capacity, Fault, FaultKind, Played, Player, Recorded, Remark, Script,
-    Source, Written, did_you_mean, elsewhere, open_recording, open_recordings, style, unreadable,
+    AtItsEnd, Bottleneck, COMMAND_COLUMNS, Capacity, Departures, Fault, FaultKind, HandOver, Played, Player,
+    Recorded, Remark, Script, Source, Start, Written, did_you_mean, elsewhere, open_recording,
+    open_recordings, style, unreadable,
 };
 pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, LaneChangeKind, Lateral, Longitudinal,

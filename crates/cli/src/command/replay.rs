@@ -107,7 +107,7 @@ impl ReplayArguments {
         write_whole(&dir.join(REPLAY), &json(&report)?)?;
         let names: Vec<String> = self.recording.iter().map(|it| it.display().to_string()).collect();
         let path = dir.join(REPLAY_REPORT);
-        write_whole(&path, &page(&report, &names.join(", "), &command).to_html())?;
+        write_whole(&path, &page(&report, &done.network, &names.join(", "), &command).to_html())?;
         match (self.json, self.quiet) {
             (true, _) => say(&json(&report)?)?,
             (false, true) => {}

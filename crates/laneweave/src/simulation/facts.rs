@@ -3,7 +3,7 @@
 use laneweave_maps::Problem;
 use laneweave_results::About;
 use laneweave_scenario::scenario::write;
-use laneweave_scenario::{Capacity, Fault, Played, Player, Remark};
+use laneweave_scenario::{Capacity, Departures, Fault, Played, Player, Remark};
 use laneweave_sim::{Counters, Counts, TripRecord, VehicleId};
 
 use super::Simulation;
@@ -67,6 +67,11 @@ impl Simulation {
     /// The recorded vehicles that have come so far.
     pub fn played(&self) -> impl Iterator<Item = Played> + '_ {
         self.prepared.script.played()
+    }
+
+    /// What happened otherwise than recorded so far: hand-overs, late drivers, and those who were taken off the road.
+    pub fn departures(&self) -> &Departures {
+        self.prepared.script.departures()
     }
 
     /// The counters of drivers since the warm-up ended.

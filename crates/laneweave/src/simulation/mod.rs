@@ -16,6 +16,8 @@ mod twins;
 mod vehicle_state;
 mod watch;
 
+use std::sync::Arc;
+
 use laneweave_maps::Map;
 use laneweave_network::Network;
 use laneweave_scenario::scenario::{
@@ -257,6 +259,11 @@ impl Simulation {
     /// The roads.
     pub fn network(&self) -> &Network {
         self.world().network()
+    }
+
+    /// The network, for use beyond the simulation.
+    pub fn shared_network(&self) -> Arc<Network> {
+        self.world().shared_network()
     }
 
     /// The world behind the simulation.

@@ -20,5 +20,5 @@ pub use crate::outcome::About;
 pub use kept::{Crowd, Driving, Reasons, Record, StyleDriving, TripTimes};
 pub use page::{Figure, Page, Section, Tile};
 pub use roads::time_and_space;
-pub use run::RunReport;
+pub use run::{RunReport, area};
 pub use table::{Align, Table};

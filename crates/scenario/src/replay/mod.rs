@@ -5,11 +5,19 @@
 //! destinations of the vehicles that had gone before it became a driver, its style from the scenario, and its desired
 //! speed from its speed at that moment.
 //!
-//! A [`Player`] puts recorded vehicles on the road, moves them and takes them off, between the steps. It has no state
-//! but the ids of its vehicles, so checkpoints, explanations and branches take a replay like any run.
+//! Nobody is where a recording has him once he has become a driver. A recorded vehicle in whose way he is, is handed
+//! over: it goes on along its recorded path as it can, and is back at its record when it has caught up. Whom it hinders
+//! in turn is handed over, too.
+//!
+//! A [`Player`] puts recorded vehicles on the road, moves them and takes them off, between the steps. Its state is a
+//! `Playback`, which checkpoints hold. So explanations and branches take a replay like any run.
 
+mod conflict;
+mod course;
 mod desire;
+mod hand_over;
 mod part;
+mod playback;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -17,17 +25,32 @@ use std::sync::Arc;
 use laneweave_network::{LaneletIndex, Position};
 use laneweave_recorded::TurningShares;
 use laneweave_recordings::{Matched, Recording, clean};
-use laneweave_sim::{Purpose, Random, VehicleId, World};
+use laneweave_sim::{Purpose, Random, RecordedVehicle, VehicleId, World};
 
 use crate::fault::Fault;
 use crate::recording::{elsewhere, open_recordings};
 use crate::scenario::{LONGEST, Origin, Replay, Scenario};
 use crate::script::first_step_from;
 use part::Part;
+use playback::Presence;
+
+pub(crate) use playback::Playback;
+pub use playback::{Departures, HandOver, Start};
 
 /// The seed of the random numbers that choose who reacts. It is always the same: so the same vehicles react whatever
 /// the seed of the run.
 const CHOICE: u64 = 1;
+/// A driver whose place is taken comes at most so far behind it [m] (ours).
+const BEHIND: f64 = 30.0;
+
+/// What a driver does when the record of its vehicle ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtItsEnd {
+    /// It is taken off the road: beyond, no recorded vehicle is there that it could react to.
+    Leaves,
+    /// It drives on.
+    DrivesOn,
+}
 
 /// A recording in memory, in place of the files that a scenario names.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,9 +62,11 @@ pub struct Recorded {
     pub from_s: f64,
     /// Lane changes (from, to) that the recording shows, and that drivers may make against the map.
     pub permitted: BTreeSet<[LaneletIndex; 2]>,
+    /// What drivers do when their records end.
+    pub at_its_end: AtItsEnd,
 }
 
-/// A recording that is played. It has no state: what is due follows from the world, and from the ids of its vehicles.
+/// A recording that is played. What is due follows from the world, and from what has been played.
 #[derive(Clone)]
 pub struct Player {
     /// In the order in which they come.
@@ -55,6 +80,7 @@ pub struct Player {
     /// Time of the recording at which the simulation begins [s].
     from_s: f64,
     permitted: Arc<BTreeSet<[LaneletIndex; 2]>>,
+    at_its_end: AtItsEnd,
 }
 
 /// A recorded vehicle of a world.
@@ -66,6 +92,8 @@ pub struct Played {
     pub vehicle: VehicleId,
     /// Whether it is to become a driver.
     pub is_reactive: bool,
+    /// Whether it has left its record because somebody is in its way.
+    pub is_handed_over: bool,
 }
 
 impl Player {
@@ -80,7 +108,8 @@ impl Player {
             return Ok(None);
         }
         let (recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
-        let recorded = Recorded { recording, from_s: 0.0, permitted: BTreeSet::new() };
+        let permitted = BTreeSet::new();
+        let recorded = Recorded { recording, from_s: 0.0, permitted, at_its_end: AtItsEnd::Leaves };
         Player::of_recorded(recorded, scenario, origin, world)
     }
 
@@ -92,7 +121,7 @@ impl Player {
         world: &World,
     ) -> Result<Option<Player>, Fault> {
         let (replay, dt) = (&scenario.replay, world.clock().dt);
-        let Recorded { mut recording, from_s, permitted } = recorded;
+        let Recorded { mut recording, from_s, permitted, at_its_end } = recorded;
         let Some((first, last)) = recording.frames() else { return Ok(None) };
         shift(&mut recording, first);
         let (cleaned, _) = clean(recording.clone());
@@ -104,13 +133,14 @@ impl Player {
         let reactive = chosen(&recording, replay, origin)?;
         let from_step = first_step_from(replay.reactive_from_s, dt);
         Ok(Some(Player {
-            parts: part::parts(&recording, &reactive, from_step, dt).into(),
+            parts: part::parts(&recording, &reactive, dt).into(),
             from_step: (!reactive.is_empty()).then_some(from_step),
             shares,
             random: Random::new(scenario.run.seed),
             duration_s: (last - first - begin) as f64 * recording.step,
             from_s: begin as f64 * recording.step,
             permitted: permitted.into(),
+            at_its_end,
         }))
     }
 
@@ -139,54 +169,99 @@ impl Player {
         self.parts.len()
     }
 
-    /// The vehicles that have come so far, of which `vehicles` has the ids by part.
-    pub(crate) fn played<'a>(
-        &'a self,
-        vehicles: &'a [Option<VehicleId>],
-    ) -> impl Iterator<Item = Played> + 'a {
-        self.parts.iter().zip(vehicles).filter_map(|(part, vehicle)| {
-            let (recorded, is_reactive) = (part.recorded, self.is_driver(part, part.last_step()));
-            vehicle.map(|vehicle| Played { recorded, vehicle, is_reactive })
+    /// The vehicles that have come so far.
+    pub(crate) fn played<'a>(&'a self, playback: &'a Playback) -> impl Iterator<Item = Played> + 'a {
+        self.parts.iter().zip(&playback.parts).filter_map(|(part, presence)| {
+            let is_reactive = self.is_driver(part, part.last_step());
+            let is_handed_over = presence.course.is_some();
+            let recorded = part.recorded;
+            presence.vehicle.map(|vehicle| Played { recorded, vehicle, is_reactive, is_handed_over })
         })
     }
 
     /// Before a step: the vehicles go where they are at its end.
-    pub(crate) fn move_on(&self, vehicles: &[Option<VehicleId>], world: &mut World) {
+    pub(crate) fn move_on(&self, playback: &mut Playback, world: &mut World) {
+        self.advance_courses(playback, world);
         let next = world.clock().step + 1;
-        for (part, id) in self.parts.iter().zip(vehicles) {
-            if let (Some(id), Some(pose)) = (*id, part.pose(next)) {
+        for (part, presence) in self.parts.iter().zip(&playback.parts) {
+            let pose = match presence.course {
+                Some(course) => Some(part.along(course.way, course.speed)),
+                None => part.pose(next),
+            };
+            if let (Some(id), Some(pose)) = (presence.vehicle, pose) {
                 world.move_recorded(id, pose);
             }
         }
     }
 
     /// At the start, and after a step: the vehicles that are no longer seen go, those that are seen for the first time
-    /// come, and those whose time has come become drivers.
-    pub(crate) fn come_and_go(&self, vehicles: &mut [Option<VehicleId>], world: &mut World) {
+    /// come, those whose time has come become drivers, and those in whose way somebody is are handed over.
+    pub(crate) fn come_and_go(&self, playback: &mut Playback, world: &mut World) {
+        self.go(playback, world);
         let now = world.clock().step;
-        for (part, id) in self.parts.iter().zip(vehicles.iter_mut()) {
-            let comes = id.is_none() && self.comes(part, world);
-            if comes {
-                // Its numbers are in their ranges.
-                *id = world.put_recorded(&part.vehicle()).ok();
+        for (number, part) in self.parts.iter().enumerate() {
+            let has_come = playback.parts[number].vehicle.is_some();
+            if !has_come && part.first_step <= now && now <= part.last_step() {
+                self.come(number, playback, world);
             }
-            let Some(id) = *id else { continue };
-            if part.last_step() < now && !comes {
-                world.remove_recorded(id);
-            } else if self.is_driver(part, now) {
-                self.release(part, id, world);
+        }
+        let Playback { parts, departures } = playback;
+        for (part, presence) in self.parts.iter().zip(parts) {
+            if self.is_driver(part, now)
+                && let Some(id) = presence.vehicle
+            {
+                self.release(part, id, presence, departures, world);
+            }
+        }
+        self.hand_over(playback, world);
+    }
+
+    /// Takes the vehicles off the road whose records have ended.
+    fn go(&self, playback: &mut Playback, world: &mut World) {
+        let now = world.clock().step;
+        let Playback { parts, departures } = playback;
+        for (part, presence) in self.parts.iter().zip(parts) {
+            let Some(vehicle) = presence.vehicle.and_then(|it| world.vehicle(it)) else { continue };
+            let (id, is_driver) = (vehicle.id(), !vehicle.is_on_its_own_path());
+            let goes = match presence.course {
+                Some(course) => part.last_step() < now && course.is_over(part.path()),
+                None => part.last_step() < now && !(is_driver && self.at_its_end == AtItsEnd::DrivesOn),
+            };
+            if !goes {
+                continue;
+            }
+            world.remove_recorded(id);
+            if is_driver {
+                departures.taken_off.push(part.recorded);
+            }
+            if presence.course.take().is_some() {
+                departures.end_hand_over(id, now);
             }
         }
     }
 
-    /// Whether a vehicle that is not there comes now: when it is first seen, or, if it is to be a driver from then on,
-    /// as soon as there is room for it.
-    fn comes(&self, part: &Part, world: &World) -> bool {
-        let now = world.clock().step;
-        match part.is_driven && self.from_step.is_some() {
-            true => false,
-            false if self.is_driver(part, now) => part.first_step <= now && world.has_room(&part.vehicle()),
-            false => part.first_step == now,
+    /// Puts a vehicle on the road where it is first seen. If somebody is in the way who is not where the recording has
+    /// him, a recorded vehicle waits for room there, and is handed over from then on; a vehicle that is to be a driver
+    /// comes behind its place, or as soon as there is room.
+    fn come(&self, number: usize, playback: &mut Playback, world: &mut World) {
+        let (part, now) = (&self.parts[number], world.clock().step);
+        let vehicle = part.vehicle();
+        let is_driver = self.is_driver(part, now);
+        let in_the_way = world.room_for(&vehicle, 0.0).err();
+        let in_the_way = in_the_way.filter(|it| is_driver || !playback.is_on_record(*it, world));
+        let place = match in_the_way {
+            None => Ok(vehicle),
+            Some(_) if is_driver => world.room_for(&vehicle, BEHIND),
+            Some(other) => Err(other),
+        };
+        let Presence { vehicle: id, refused_for, behind_m, .. } = &mut playback.parts[number];
+        *refused_for = refused_for.or(in_the_way);
+        let Ok(place) = place else { return };
+        // Its numbers are in their ranges.
+        *id = world.put_recorded(&place).ok();
+        *behind_m = apart(&vehicle, &place);
+        if let (Some(because_of), Some(id), false) = (*refused_for, *id, is_driver) {
+            self.begin_hand_over(number, because_of, id, playback, world);
         }
     }
 
@@ -196,7 +271,14 @@ impl Player {
     }
 
     /// Lets a vehicle become a driver, if it is not one and is in a lane.
-    fn release(&self, part: &Part, id: VehicleId, world: &mut World) {
+    fn release(
+        &self,
+        part: &Part,
+        id: VehicleId,
+        presence: &mut Presence,
+        departures: &mut Departures,
+        world: &mut World,
+    ) {
         let Some(vehicle) = world.vehicle(id).filter(|it| it.is_on_its_own_path() && it.is_in_lane()) else {
             return;
         };
@@ -210,8 +292,27 @@ impl Player {
         let destination = number.and_then(|it| world.demand().destinations.get(it)).map(|it| it.id());
         let draw = self.random.uniform(part.subject(), Purpose::Character, 0);
         let parameters = desire::parameters(&vehicle, world, draw);
-        world.release_recorded(id, destination, parameters);
+        if !world.release_recorded(id, destination, parameters) {
+            return;
+        }
+        let now = world.clock().step;
+        if presence.course.take().is_some() {
+            departures.end_hand_over(id, now);
+        }
+        let due = part.first_step.max(self.from_step.unwrap_or(0));
+        let (late_steps, behind_m) = (now - due, presence.behind_m);
+        if late_steps > 0 || behind_m > 0.0 {
+            let because_of = presence.refused_for;
+            let start = Start { recorded: part.recorded, vehicle: id, late_steps, behind_m, because_of };
+            departures.starts.push(start);
+        }
     }
+}
+
+/// The distance between the places of two vehicles [m].
+fn apart(one: &RecordedVehicle, other: &RecordedVehicle) -> f64 {
+    let [from, to] = [one.pose, other.pose];
+    if from == to { 0.0 } else { (to.x - from.x).hypot(to.y - from.y) }
 }
 
 /// Makes `first` the frame 0 of a recording. What was recorded before is left out.

@@ -16,7 +16,7 @@ use laneweave_sim::{Command, Control, NewVehicle, VehicleId, World};
 use laneweave_study::seconds;
 
 use crate::fault::Fault;
-use crate::replay::{Played, Player};
+use crate::replay::{Departures, Played, Player};
 use crate::scenario::{External, LONGEST, Origin, Scenario};
 use row::Row;
 pub(crate) use row::first_step_from;
@@ -132,12 +132,12 @@ impl Script {
     /// Gives the commands that are due, and simulates a step of `world`.
     pub fn step(&mut self, world: &mut World) {
         let step = world.clock().step;
-        let State { recorded, .. } = &mut self.state;
+        let State { playback, .. } = &mut self.state;
         if let Some(player) = &self.player {
             if step == 0 {
-                player.come_and_go(recorded, world);
+                player.come_and_go(playback, world);
             }
-            player.move_on(recorded, world);
+            player.move_on(playback, world);
         }
         let begin = self.rows.partition_point(|it| it.step < step);
         for row in self.rows[begin..].iter().take_while(|it| it.step == step) {
@@ -154,7 +154,7 @@ impl Script {
         }
         world.step();
         if let Some(player) = &self.player {
-            player.come_and_go(&mut self.state.recorded, world);
+            player.come_and_go(&mut self.state.playback, world);
         }
     }
 
@@ -165,7 +165,12 @@ impl Script {
 
     /// The recorded vehicles that have come so far.
     pub fn played(&self) -> impl Iterator<Item = Played> + '_ {
-        self.player.iter().flat_map(|it| it.played(&self.state.recorded))
+        self.player.iter().flat_map(|it| it.played(&self.state.playback))
+    }
+
+    /// What happened otherwise than recorded so far.
+    pub fn departures(&self) -> &Departures {
+        &self.state.playback.departures
     }
 
     /// The id of the external vehicle called `name`, as soon as it is on the road.

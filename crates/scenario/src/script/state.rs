@@ -6,6 +6,7 @@ use laneweave_sim::{Command, VehicleId, World};
 use serde::{Deserialize, Serialize};
 
 use super::row::Row;
+use crate::replay::Playback;
 
 /// Maximum of refused commands that are told one by one.
 const TOLD: usize = 3;
@@ -17,8 +18,8 @@ pub(crate) struct State {
     inserted: BTreeMap<VehicleId, VehicleId>,
     /// The id of each external vehicle that was put on the road.
     pub(super) externals: Vec<Option<VehicleId>>,
-    /// The id of each part of the recording that has come.
-    pub(super) recorded: Vec<Option<VehicleId>>,
+    /// What has been played of the recording.
+    pub(super) playback: Playback,
     /// Number of refused commands, and the first of them in words.
     pub(super) refused: u64,
     pub(super) first_refused: Vec<String>,
@@ -27,18 +28,19 @@ pub(crate) struct State {
 impl State {
     /// That of a script with so many external vehicles, and so many parts of a recording, none of which is on the road.
     pub(super) fn of(externals: usize, recorded: usize) -> State {
-        State { externals: vec![None; externals], recorded: vec![None; recorded], ..State::default() }
+        let playback = Playback::of(recorded);
+        State { externals: vec![None; externals], playback, ..State::default() }
     }
 
     /// Whether it is that of a script with as many external vehicles, and as many parts of a recording.
     pub(crate) fn fits(&self, other: &State) -> bool {
-        let [own, others] = [self, other].map(|it| [it.externals.len(), it.recorded.len()]);
+        let [own, others] = [self, other].map(|it| [it.externals.len(), it.playback.len()]);
         own == others
     }
 
     /// The same state, which knows the vehicles that were inserted `before`.
     pub(super) fn after(self, before: &State) -> State {
-        State { inserted: before.inserted.clone(), recorded: before.recorded.clone(), ..self }
+        State { inserted: before.inserted.clone(), playback: before.playback.clone(), ..self }
     }
 
     /// Gives the command of `row`, in a file with these new vehicles.

@@ -41,7 +41,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             }
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
-        if next.headway_relaxation < 1.0 {
+        if next.headway_relaxation != 1.0 {
             let manner = &scene.style_of(driver).manner;
             next.headway_relaxation = manner.relaxed(f64::from(next.headway_relaxation), clock.dt) as f32;
         }

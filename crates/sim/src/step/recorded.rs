@@ -4,7 +4,7 @@
 //! Everything here happens at once, between two steps. It is no command of a user.
 
 use laneweave_models::Style;
-use laneweave_models::follow::Pace;
+use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_network::{ChainIndex, Footprint, Point, Pose, Position, Rectangle};
 
 use crate::record::lanelet_aggregates::Mark;
@@ -115,18 +115,35 @@ impl World {
         Ok(id)
     }
 
-    /// Whether a driver could come onto the road in place of a recorded vehicle that is not there yet: neither it nor
-    /// its follower would have to brake harder than vehicles can. There is room for a vehicle in no lane.
-    pub fn has_room(&self, vehicle: &RecordedVehicle) -> bool {
+    /// Where a driver could come onto the road in place of a recorded vehicle that is not there yet, so that neither it
+    /// nor its follower would have to brake harder than vehicles can: where the vehicle is, or at most `most_behind` [m]
+    /// behind that place in the middle of its lane. There is room for a vehicle in no lane.
+    ///
+    /// # Errors
+    /// If there is no such place: the id of a vehicle that is in the way.
+    pub fn room_for(
+        &self,
+        vehicle: &RecordedVehicle,
+        most_behind: f64,
+    ) -> Result<RecordedVehicle, VehicleId> {
+        /// Places so far apart are tried [m].
+        const APART: f64 = 1.0;
         let RecordedVehicle { class, length, width, pose } = *vehicle;
         let at = Pose { at: Point::new(pose.x, pose.y, 0.0), heading: pose.heading };
         let rectangle = Rectangle { pose: at, length, width };
         let footprints = self.roads.ground().footprints(&rectangle);
-        let Some(number) = main_lane(&self.roads, &rectangle, &footprints, None) else { return true };
+        let Some(number) = main_lane(&self.roads, &rectangle, &footprints, None) else { return Ok(*vehicle) };
         let Footprint { chain, to: x, .. } = footprints[number];
         let destination = self.roads.navigator().seen_by(class, None);
         let body = Body { chain, x, length, speed: pose.speed, destination, is_long: class.is_long() };
-        in_the_way(self, &body).is_none()
+        let Some(other) = in_the_way(self, &body) else { return Ok(*vehicle) };
+        let last = most_behind.min(x - length);
+        let behind = (1..).map(|it| f64::from(it) * APART).take_while(|it| *it <= last);
+        let free = behind.map(|it| x - it).find(|x| in_the_way(self, &Body { x: *x, ..body }).is_none());
+        let x = free.ok_or(other)?;
+        let (centre, middle) = (&self.network().chain(chain).centre, x - 0.5 * length);
+        let (at, heading) = (centre.at(middle), centre.heading(middle));
+        Ok(RecordedVehicle { pose: RecordedPose { x: at.x, y: at.y, heading, ..pose }, ..*vehicle })
     }
 
     /// Moves a recorded vehicle: it is at `pose` at the end of the next step. Returns whether it could be moved: not so
@@ -138,12 +155,11 @@ impl World {
         true
     }
 
-    /// Takes a recorded vehicle off the road. Its trip does not count as completed.
+    /// Takes a recorded vehicle off the road, whether it has become a driver or not. Its trip does not count as
+    /// completed.
     pub fn remove_recorded(&mut self, id: VehicleId) {
-        if self.traffic.externals().of(id).is_some() {
-            self.carrying_out().remove(id);
-            self.index.forget();
-        }
+        self.carrying_out().remove(id);
+        self.index.forget();
     }
 
     /// Lets a recorded vehicle become a driver who reacts, in the lane in which it is and at its speed, with these
@@ -174,11 +190,12 @@ impl World {
         self.carrying_out().control(id, Control::DRIVER);
         self.carrying_out().set_destination(id, number.filter(|_| leads_on));
         let scene = self.scene();
-        let gap = scene.ahead(scene.viewpoint(spot)).map_or(f64::INFINITY, |it| it.gap);
+        let leader = scene.ahead(scene.viewpoint(spot));
         let (roads, at) = (&self.roads, Position::new(spot.chain, x));
         let (motion, driver, _) = self.traffic.lane_mut(spot.chain).entry_mut(spot.index);
         driver.parameters = parameters;
-        motion.headway_relaxation = accepted_headway(roads.style(parameters), motion.speed, gap) as f32;
+        let accepted = leader.map_or(1.0, |it| accepted_headway(roads.style(parameters), motion.speed, it));
+        motion.headway_relaxation = accepted as f32;
         driver.desired = motion.speed as f32;
         desire_speed(driver, roads.outlook(driver).fitting_speed(at, 0.0) as f32);
         self.index.forget();
@@ -191,13 +208,31 @@ impl World {
     }
 }
 
-/// The share of its usual headway that a driver accepts who is found at this `gap` [m], as if it had just changed
-/// lanes.
-fn accepted_headway(style: &Style, speed: f64, gap: f64) -> f64 {
+/// The share of its usual headway with which a driver who is found at `speed` [m/s] behind a leader drives on as it
+/// does: neither faster nor slower (ours). It may be held at a shorter headway than it likes, as after a lane change, or
+/// not have closed a longer one yet; both relax in time. A driver with a time gap beyond which nobody follows is free.
+fn accepted_headway(style: &Style, speed: f64, leader: Ahead) -> f64 {
     /// A driver who desires so much more than its speed keeps its usual gap [m/s].
     const HELD_UP: f64 = 10.0;
-    let usual = style.follow.equilibrium_gap(Pace::new(speed, speed + HELD_UP));
-    (gap / usual).clamp(style.manner.headway_relaxation(1.0), 1.0)
+    /// Time gap from which on a driver does not follow [s].
+    const FREE: f64 = 4.0;
+    /// Share of a usual headway that nobody exceeds while it follows.
+    const LONGEST: f64 = 3.0;
+    /// Halvings of the range in which it is searched.
+    const HALVINGS: usize = 20;
+    if leader.gap > FREE * speed {
+        return 1.0;
+    }
+    let goes_on = |headway_relaxation: f64| {
+        let pace = Pace { speed, desired: speed + HELD_UP, headway_relaxation };
+        style.follow.acceleration(pace, Some(leader)) >= 0.0
+    };
+    let (mut least, mut most) = (style.manner.headway_relaxation(1.0), LONGEST);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (least + most);
+        if goes_on(middle) { least = middle } else { most = middle }
+    }
+    least
 }
 
 /// The stretches of lanes that a new vehicle touches, on the level of the lane along which it drives, and its place

@@ -1,13 +1,14 @@
 //! Collisions of a replay, by who is at fault.
 //!
-//! A recorded vehicle does not react: it drives through whoever is in its way. So the collisions that it causes are
-//! told apart from those that reactive drivers cause.
+//! A recorded vehicle on its record does not react. So the collisions that it causes are told apart from those that
+//! reactive drivers cause, and from those of vehicles that are handed over.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use laneweave::sim::Vehicle;
 use laneweave::{Event, Incident, Simulation, VehicleId};
 use laneweave_network::{ChainIndex, Position};
+use laneweave_scenario::Played;
 use serde::Serialize;
 
 /// A vehicle that came into its lane from the side less than this before is at fault [s] (ours).
@@ -22,8 +23,17 @@ pub struct Collisions {
     pub by_recorded: usize,
     /// Two reactive drivers.
     pub between_reactive: usize,
+    /// A vehicle that was handed over, and anybody.
+    pub of_handed_over: usize,
     /// Two recorded vehicles: their places or sizes are not exact.
     pub between_recorded: usize,
+}
+
+impl Collisions {
+    /// All that would not have been without reactive drivers.
+    pub(super) fn contacts(&self) -> usize {
+        self.by_reactive + self.by_recorded + self.between_reactive + self.of_handed_over
+    }
 }
 
 /// Watches for collisions.
@@ -60,7 +70,9 @@ impl CollisionWatch {
 
     fn count(&mut self, incident: &Incident, simulation: &Simulation) {
         let Some([a, b]) = both(incident.vehicles, simulation) else { return };
+        let is_handed_over = |it: Played| it.is_handed_over && incident.vehicles.contains(&it.vehicle);
         let place = match [a, b].map(|it| it.is_on_its_own_path()) {
+            _ if simulation.played().any(is_handed_over) => &mut self.collisions.of_handed_over,
             [true, true] => &mut self.collisions.between_recorded,
             [false, false] => &mut self.collisions.between_reactive,
             [a_is_recorded, _] => {

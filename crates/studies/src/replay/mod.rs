@@ -1,9 +1,10 @@
 //! Replays: recorded vehicles beside drivers who react, and how well these match what was recorded of them.
 //!
 //! `trace.rs` follows the drivers and their records through simulations. `parting.rs`, `collisions.rs` and `score.rs`
-//! compare them.
+//! compare them; `exposure.rs` tells how much of the replay is as recorded.
 
 mod collisions;
+mod exposure;
 #[cfg(feature = "reports")]
 mod page;
 mod parting;
@@ -14,13 +15,16 @@ mod trace;
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use laneweave_network::Network;
 use laneweave_scenario::scenario::{Origin, Replay, Scenario};
 use laneweave_scenario::style::Model;
 use laneweave_scenario::{Fault, Played, Player, open_recordings};
 
 use crate::parallel::in_parallel;
 use collisions::CollisionWatch;
+use exposure::Exposure;
 use laneweave::Simulation;
 use laneweave::run::{Results, Run};
 use trace::{Followed, Trace, Tracer};
@@ -29,7 +33,10 @@ pub use collisions::Collisions;
 #[cfg(feature = "reports")]
 pub use page::page;
 pub use parting::{PartedAfter, Parting};
-pub use report::{CollisionMeans, Difference, Driver, Matched, Named, ReplayReport, Score};
+pub use report::{
+    CollisionMeans, Difference, Driver, Example, HandOvers, HandedOver, LateStart, Matched, Mean, Named,
+    ReplayReport, Score,
+};
 
 /// Drivers decide at least so often [s].
 const STEP: f64 = 0.1;
@@ -72,6 +79,8 @@ pub struct Replayed {
     pub results: Results,
     /// How well the drivers match what was recorded; none if the run was interrupted.
     pub report: Option<ReplayReport>,
+    /// The roads.
+    pub network: Arc<Network>,
 }
 
 /// What is compared in a replay.
@@ -104,17 +113,18 @@ pub fn replay(
     let player = run.simulation().player().cloned();
     let player = player.ok_or_else(|| Fault::new("replay", "this scenario replays no recording", remedy))?;
     let mut first = Watched::default();
+    let network = run.simulation().shared_network();
     let results = run.drive(|simulation| {
         first.observe(simulation, &Followed::Drivers);
         look(simulation);
         Ok::<bool, Fault>(!is_stopped())
     })?;
     if results.summary.interrupted {
-        return Ok(Replayed { results, report: None });
+        return Ok(Replayed { results, report: None, network });
     }
     let rollouts = Rollouts { scenario, origin, player: &player, is_stopped: &is_stopped };
     let report = rollouts.report(asked, first)?;
-    Ok(Replayed { results, report: (!is_stopped()).then_some(report) })
+    Ok(Replayed { results, report: (!is_stopped()).then_some(report), network })
 }
 
 /// What was seen of one rollout.
@@ -122,6 +132,7 @@ pub fn replay(
 struct Watched {
     tracer: Tracer,
     collisions: CollisionWatch,
+    exposure: Exposure,
     vehicles: Vec<Named>,
     /// The ids of those that are to become drivers.
     chosen: BTreeSet<i64>,
@@ -131,6 +142,7 @@ impl Watched {
     fn observe(&mut self, simulation: &Simulation, followed: &Followed) {
         self.tracer.observe(simulation, followed);
         self.collisions.observe(simulation);
+        self.exposure.observe(simulation);
         if simulation.played().count() > self.vehicles.len() {
             let named = |it: Played| Named { recorded: it.recorded, vehicle: it.vehicle };
             self.vehicles = simulation.played().map(named).collect();

@@ -35,6 +35,8 @@ pub struct PartedAfter {
     pub speed_mps: f64,
     /// Mean distance between the places [m].
     pub distance_m: f64,
+    /// Mean distance of the recorded places from where the same vehicles would be at constant speed, straight on [m].
+    pub constant_speed_m: f64,
 }
 
 impl Parting {
@@ -59,12 +61,16 @@ impl Parting {
 }
 
 fn after(pairs: &[(&Trace, &Trace)], time_s: f64, step: usize) -> Option<PartedAfter> {
-    let both = pairs.iter().filter_map(|(a, b)| Some((a.samples.get(step)?, b.samples.get(step)?)));
-    let (mut drivers, mut speed, mut distance) = (0, 0.0, 0.0);
-    for (a, b) in both {
+    let both =
+        pairs.iter().filter_map(|(a, b)| Some((a.samples.get(step)?, b.samples.get(step)?, &a.samples[0])));
+    let (mut drivers, mut speed, mut distance, mut constant) = (0, 0.0, 0.0, 0.0);
+    for (a, b, first) in both {
         drivers += 1;
         speed += (a.speed - b.speed).abs();
-        distance += (a.at[0] - b.at[0]).hypot(a.at[1] - b.at[1]);
+        distance += apart(a.at, b.at);
+        let (sin, cos) = first.heading.sin_cos();
+        let way = first.speed * time_s;
+        constant += apart(a.at, [first.at[0] + way * cos, first.at[1] + way * sin]);
     }
     let count = drivers as f64;
     (drivers > 0).then(|| PartedAfter {
@@ -72,5 +78,10 @@ fn after(pairs: &[(&Trace, &Trace)], time_s: f64, step: usize) -> Option<PartedA
         drivers,
         speed_mps: speed / count,
         distance_m: distance / count,
+        constant_speed_m: constant / count,
     })
+}
+
+fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }

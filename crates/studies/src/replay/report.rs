@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_scenario::Player;
 use laneweave_scenario::scenario::Scenario;
 use laneweave_scenario::style::Model;
+use laneweave_scenario::{HandOver, Player, Start};
 use laneweave_study::{Estimate, mean};
 use serde::Serialize;
 
@@ -31,6 +31,12 @@ pub struct ReplayReport {
     pub models: Vec<Matched>,
     /// The drivers of the first rollout, whose tables are written.
     pub drivers: Vec<Driver>,
+    /// Those of them who began later than their records, or behind them.
+    pub late: Vec<LateStart>,
+    /// The hand-overs of the first rollout.
+    pub handed_over: Vec<HandedOver>,
+    /// The driver that is compared for the longest time, in the rollouts of the first model.
+    pub example: Option<Example>,
     /// The ids that recorded vehicles have in its tables.
     pub vehicles: Vec<Named>,
 }
@@ -46,10 +52,80 @@ pub struct Matched {
     pub parting: Parting,
     /// Collisions, a mean over the rollouts.
     pub collisions: CollisionMeans,
+    /// Collisions for each driver, but those between recorded vehicles on their records.
+    pub contacts_per_driver: Option<Mean>,
+    /// How much of the replay is as recorded.
+    pub hand_overs: HandOvers,
     /// How likely the records are: means over the drivers [nats].
     pub score: Score,
     /// The difference of the whole score from that of the first model, paired by driver; none for the first.
     pub difference: Option<Difference>,
+}
+
+/// A mean over the rollouts with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Mean {
+    /// The mean.
+    pub mean: f64,
+    /// Half of the interval; none with one rollout.
+    pub half_width: Option<f64>,
+}
+
+/// How much of a replay is as recorded, in the mean of the rollouts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct HandOvers {
+    /// Hand-overs per vehicle-kilometre of recorded vehicles.
+    pub per_veh_km: Option<Mean>,
+    /// Share of the time of recorded vehicles in which they are handed over.
+    pub share: Option<Mean>,
+    /// Share of the time of drivers in which they are compared with their records: until a recorded vehicle is first
+    /// handed over because of them.
+    pub compared_share: Option<Mean>,
+    /// Drivers who were taken off the road when their records ended.
+    pub taken_off: f64,
+    /// Drivers who began later than their records, or behind them.
+    pub late: f64,
+}
+
+/// A hand-over of the first rollout.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HandedOver {
+    /// The id in the recording.
+    pub recorded: i64,
+    /// The id in the tables.
+    pub vehicle: u32,
+    /// Who was in the way: its id in the tables.
+    pub because_of: u32,
+    /// When it left its record [s].
+    pub from_s: f64,
+    /// When it was back, or left the road [s]; none: not before the end.
+    pub until_s: Option<f64>,
+    /// Where it left its record: east and north [m].
+    pub at_m: [f64; 2],
+}
+
+/// A driver in several rollouts, from the moment on in which it became one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Example {
+    /// Its id in the recording.
+    pub recorded: i64,
+    /// Its recorded speeds, step by step [m/s].
+    pub recorded_mps: Vec<f64>,
+    /// Its speeds in each rollout, as long as it is compared [m/s].
+    pub driven_mps: Vec<Vec<f64>>,
+}
+
+/// A driver of the first rollout who began later than its record, or behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LateStart {
+    /// Its id in the recording.
+    pub recorded: i64,
+    /// How late it began [s].
+    pub late_s: f64,
+    /// How far behind its place it began [m].
+    pub behind_m: f64,
+    /// The vehicle in the tables that was in the way; none: it was in no lane that leads on.
+    pub because_of: Option<u32>,
 }
 
 /// Pairs of vehicles that collided in a rollout, in the mean.
@@ -61,6 +137,8 @@ pub struct CollisionMeans {
     pub by_recorded: f64,
     /// Between two reactive drivers.
     pub between_reactive: f64,
+    /// Of a vehicle that was handed over, with anybody.
+    pub of_handed_over: f64,
     /// Between two recorded vehicles.
     pub between_recorded: f64,
 }
@@ -126,7 +204,14 @@ impl ReplayReport {
         let dt = scenario.run.step_s;
         let record = &recorded.tracer.traces;
         let first = rollouts.first().and_then(|it| it.1.first());
-        let never_in_a_lane = first.map_or(0, |it| it.chosen.len().saturating_sub(it.tracer.traces.len()));
+        let reactive = first.map_or(0, |it| it.exposure.drivers());
+        let late = first
+            .map_or(Vec::new(), |it| it.exposure.departures.starts.iter().map(|it| late(it, dt)).collect());
+        let handed_over = first.map_or(Vec::new(), |it| {
+            it.exposure.departures.hand_overs.iter().map(|it| handed_over(it, dt)).collect()
+        });
+        let example = rollouts.first().and_then(|it| Example::of(record, &it.1));
+        let never_in_a_lane = first.map_or(0, |it| it.chosen.len().saturating_sub(reactive));
         let vehicles = first.map_or(Vec::new(), |it| it.vehicles.clone());
         let drivers = first.map_or(Vec::new(), |first| {
             first.tracer.traces.iter().map(|(id, trace)| driver(*id, trace, record.get(id), dt)).collect()
@@ -134,6 +219,11 @@ impl ReplayReport {
         let mut models: Vec<Matched> = Vec::new();
         let mut reference: Option<BTreeMap<i64, [f64; KINDS]>> = None;
         for (model, watched) in rollouts {
+            let hand_overs = HandOvers::of(&watched);
+            let contacts_per_driver = over(&watched, |it| {
+                let drivers = it.exposure.drivers();
+                (drivers > 0).then(|| it.collisions.collisions.contacts() as f64 / drivers as f64)
+            });
             let collisions: Vec<Collisions> = watched.iter().map(|it| it.collisions.collisions).collect();
             let traces: Vec<Traces> = watched.into_iter().map(|it| it.tracer.traces).collect();
             let scores = all_scores(record, &traces, dt);
@@ -142,6 +232,8 @@ impl ReplayReport {
                 rollouts: traces.len(),
                 parting: Parting::of(record, &traces, dt),
                 collisions: means(&collisions),
+                contacts_per_driver,
+                hand_overs,
                 score: Score::of(&scores),
                 difference: reference.as_ref().and_then(|it| difference(&scores, it)),
             });
@@ -151,10 +243,13 @@ impl ReplayReport {
             duration_s: player.duration_s(),
             step_s: dt,
             recorded: recorded.vehicles.len(),
-            reactive: drivers.len(),
+            reactive,
             never_in_a_lane,
             models,
             drivers,
+            late,
+            handed_over,
+            example,
             vehicles,
         }
     }
@@ -174,29 +269,95 @@ impl ReplayReport {
         if self.reactive == 0 {
             return text + "Nobody reacts: all vehicles drive as they were recorded.\n";
         }
-        text += "\nmodel                 parted     collisions by       nats: speed  acceleration     gap  lane change   whole\n";
-        text += "                        in 5 s  reactive  recorded\n";
+        text += "\n                      contacts   handed over   compared   metres from the record after   nats: whole\n";
+        text += "model                 a driver        in time    in time              3 s         5 s\n";
         for it in &self.models {
-            let Score { speed, acceleration, gap, lane_change, whole, .. } = it.score;
+            let HandOvers { share, compared_share, .. } = it.hand_overs;
+            let percent =
+                |it: Option<Mean>| it.map_or("–".into(), |it| format!("{:.1} %", 100.0 * it.mean));
+            let contacts = it.contacts_per_driver.map_or("–".into(), |it| format!("{:.2}", it.mean));
+            let metres = |time: f64| {
+                let after = it.parting.after.iter().find(|it| it.time_s == time);
+                after.map_or("–".into(), |it| format!("{:.2}", it.distance_m))
+            };
+            let [three, five] = [3.0, 5.0].map(metres);
             text += &format!(
-                "{:20} {:7.1} % {:9.1} {:9.1} {:17.3} {:13.3} {:7.3} {:12.3} {:7.3}",
+                "{:20} {contacts:>9} {:>13} {:>10} {three:>16} {five:>11} {:>13.3}",
                 it.model,
-                100.0 * it.parting.parted_share,
-                it.collisions.by_reactive,
-                it.collisions.by_recorded,
-                speed,
-                acceleration,
-                gap,
-                lane_change,
-                whole
+                percent(share),
+                percent(compared_share),
+                it.score.whole
             );
             if let Some(Difference { mean, half_width }) = it.difference {
                 text += &format!(" ({mean:+.3} ± {half_width:.3})");
             }
             text += "\n";
         }
+        text += &self.constant_speed();
         text
     }
+}
+
+impl ReplayReport {
+    /// How far the drivers of the first model would be from their records at constant speed, in words.
+    fn constant_speed(&self) -> String {
+        let Some(first) = self.models.first() else { return String::new() };
+        let metres = |time: f64| {
+            let after = first.parting.after.iter().find(|it| it.time_s == time);
+            after.map_or("–".into(), |it| format!("{:.2}", it.constant_speed_m))
+        };
+        let [three, five] = [3.0, 5.0].map(metres);
+        format!("{:20} {:>9} {:>13} {:>10} {three:>16} {five:>11}\n", "constant speed", "", "", "")
+    }
+}
+
+impl HandOvers {
+    fn of(rollouts: &[Watched]) -> HandOvers {
+        let count = |of: fn(&Watched) -> usize| {
+            rollouts.iter().map(of).sum::<usize>() as f64 / rollouts.len().max(1) as f64
+        };
+        HandOvers {
+            per_veh_km: over(rollouts, |it| it.exposure.hand_overs_per_km()),
+            share: over(rollouts, |it| it.exposure.handed_over()),
+            compared_share: over(rollouts, |it| it.exposure.compared()),
+            taken_off: count(|it| it.exposure.departures.taken_off.len()),
+            late: count(|it| it.exposure.departures.starts.len()),
+        }
+    }
+}
+
+/// The mean over rollouts of what `of` tells of them.
+fn over(rollouts: &[Watched], of: impl Fn(&Watched) -> Option<f64>) -> Option<Mean> {
+    let all: Vec<f64> = rollouts.iter().filter_map(of).collect();
+    let Estimate { mean, half_width, .. } = mean(&all)?;
+    Some(Mean { mean, half_width: half_width.is_finite().then_some(half_width) })
+}
+
+fn handed_over(it: &HandOver, dt: f64) -> HandedOver {
+    let HandOver { recorded, vehicle, because_of, at, .. } = *it;
+    let seconds = |step: u32| f64::from(step) * dt;
+    let (from_s, until_s) = (seconds(it.from_step), it.until_step.map(seconds));
+    HandedOver { recorded, vehicle, because_of, from_s, until_s, at_m: at }
+}
+
+impl Example {
+    fn of(record: &Traces, rollouts: &[Watched]) -> Option<Example> {
+        /// Rollouts that are shown.
+        const SHOWN: usize = 4;
+        let traces = |id: &i64| rollouts.iter().filter_map(|it| it.tracer.traces.get(id)).collect::<Vec<_>>();
+        let compared = |id: &i64| traces(id).iter().map(|it| it.samples.len()).sum::<usize>();
+        let (recorded, recorded_trace) = record
+            .iter()
+            .max_by_key(|(id, it)| (compared(id).min(it.samples.len() * rollouts.len()), -**id))?;
+        let speeds = |trace: &Trace| trace.samples.iter().map(|it| it.speed).collect::<Vec<f64>>();
+        let driven_mps = traces(recorded).into_iter().take(SHOWN).map(speeds).collect();
+        Some(Example { recorded: *recorded, recorded_mps: speeds(recorded_trace), driven_mps })
+    }
+}
+
+fn late(start: &Start, dt: f64) -> LateStart {
+    let Start { recorded, late_steps, behind_m, because_of, .. } = *start;
+    LateStart { recorded, late_s: f64::from(late_steps) * dt, behind_m, because_of }
 }
 
 impl Score {
@@ -244,6 +405,7 @@ fn means(all: &[Collisions]) -> CollisionMeans {
         by_reactive: mean(|it| it.by_reactive),
         by_recorded: mean(|it| it.by_recorded),
         between_reactive: mean(|it| it.between_reactive),
+        of_handed_over: mean(|it| it.of_handed_over),
         between_recorded: mean(|it| it.between_recorded),
     }
 }

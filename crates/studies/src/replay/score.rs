@@ -53,24 +53,31 @@ impl Quantity {
 }
 
 /// The mean scores of one driver: speed, acceleration, gap and time of a lane change [nats]. `rollouts` are its traces,
-/// `dt` is the step [s]. None if it was recorded for less than a second.
+/// `dt` is the step [s]. None if it was recorded for less than a second, or was not comparable so long in any rollout.
 pub(super) fn scores(record: &Trace, rollouts: &[&Trace], dt: f64) -> Option<[f64; KINDS]> {
     let a_second = (1.0 / dt).round().max(1.0) as usize;
     let seconds = (record.samples.len().checked_sub(1)? / a_second).min(HORIZON as usize);
     if seconds == 0 {
         return None;
     }
-    let mut sums = [0.0; KINDS - 1];
+    let (mut sums, mut scored) = ([0.0; KINDS - 1], 0);
     for second in 1..=seconds {
         let at = second * a_second;
         let there: Vec<&&Trace> = rollouts.iter().filter(|it| it.samples.len() > at).collect();
+        if there.is_empty() {
+            break;
+        }
+        scored += 1;
         for (sum, quantity) in sums.iter_mut().zip([SPEED, ACCELERATION, GAP]) {
             let of = |it: &Trace| (quantity.of)(&it.samples, at, a_second);
             let drawn: Vec<f64> = there.iter().map(|it| of(it)).collect();
             *sum += quantity.score(&drawn, of(record));
         }
     }
-    let [speed, acceleration, gap] = sums.map(|it| it / seconds as f64);
+    if scored == 0 {
+        return None;
+    }
+    let [speed, acceleration, gap] = sums.map(|it| it / f64::from(scored));
     Some([speed, acceleration, gap, change(record, rollouts, dt)])
 }
 
@@ -86,9 +93,12 @@ fn log_gap(samples: &[Sample], at: usize, _: usize) -> f64 {
     samples[at].gap.clamp(NEAREST, FARTHEST).ln()
 }
 
-/// The score of the time of the first lane change while the driver was recorded, or of none.
+/// The score of the time of the first lane change while the driver was recorded, or of none. A rollout in which the
+/// driver was not comparable long enough to tell does not count.
 fn change(record: &Trace, rollouts: &[&Trace], dt: f64) -> f64 {
     let span = record.until - record.from;
+    let tells = |it: &&&Trace| it.changed.is_some() || !it.is_cut || it.until - it.from >= span;
+    let rollouts: Vec<&Trace> = rollouts.iter().filter(tells).copied().collect();
     let class = |it: &Trace| {
         let after = it.changed.map(|step| step - it.from).filter(|it| *it <= span);
         after.map(|it| (f64::from(it) * dt / CLASS) as usize)

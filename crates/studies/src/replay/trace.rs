@@ -1,11 +1,11 @@
 //! What reactive drivers do from the moment on in which they become drivers, and what was recorded of them: both are
 //! seen in the same way in a world.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use laneweave::Simulation;
 use laneweave::sim::Vehicle;
-use laneweave_network::ChainIndex;
+use laneweave::{Simulation, VehicleId};
+use laneweave_network::{ChainIndex, Pose};
 use laneweave_scenario::Played;
 
 /// Vehicles are followed in detail for this time [s].
@@ -22,9 +22,12 @@ pub(super) struct Sample {
     pub(super) gap: f64,
     /// Its centre [m].
     pub(super) at: [f64; 2],
+    /// Its heading [rad].
+    pub(super) heading: f64,
 }
 
-/// A vehicle from the step on in which it becomes a driver.
+/// A vehicle from the step on in which it becomes a driver, as long as it is comparable with its record: until a
+/// recorded vehicle is handed over because of it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Trace {
     /// That step.
@@ -33,6 +36,8 @@ pub(super) struct Trace {
     pub(super) samples: Vec<Sample>,
     /// The last step in which it is seen.
     pub(super) until: u32,
+    /// A recorded vehicle was handed over because of it: what it does afterwards is not compared.
+    pub(super) is_cut: bool,
     /// The step in which it first came into the lane beside its own.
     pub(super) changed: Option<u32>,
     chain: ChainIndex,
@@ -50,17 +55,24 @@ pub(super) enum Followed<'a> {
 #[derive(Default)]
 pub(super) struct Tracer {
     pub(super) traces: BTreeMap<i64, Trace>,
+    /// Drivers who began elsewhere, or later, than recorded. They are not compared.
+    elsewhere: BTreeSet<VehicleId>,
+    /// Number of hand-overs that were seen.
+    hand_overs: usize,
 }
 
 impl Tracer {
     /// Follows the vehicles of the recording in `simulation`, once after each step.
     pub(super) fn observe(&mut self, simulation: &Simulation, followed: &Followed) {
         let now = simulation.clock().step;
-        for Played { recorded, vehicle, is_reactive } in simulation.played() {
+        if matches!(followed, Followed::Drivers) {
+            self.cut(simulation);
+        }
+        for Played { recorded, vehicle, is_reactive, .. } in simulation.played() {
             let known = self.traces.get(&recorded);
             let is_due = match (known, followed) {
-                (Some(known), _) => known.until + 1 == now,
-                (None, Followed::Drivers) => is_reactive,
+                (Some(known), _) => known.until + 1 == now && !known.is_cut,
+                (None, Followed::Drivers) => is_reactive && !self.elsewhere.contains(&vehicle),
                 (None, Followed::Recorded(drivers)) => {
                     drivers.get(&recorded).is_some_and(|it| it.from == now)
                 }
@@ -72,12 +84,27 @@ impl Tracer {
         }
     }
 
+    /// Notes drivers who begin elsewhere than their records, and those because of whom somebody was handed over.
+    fn cut(&mut self, simulation: &Simulation) {
+        let departures = simulation.departures();
+        let elsewhere = departures.starts.iter().filter(|it| it.because_of.is_some());
+        self.elsewhere.extend(elsewhere.map(|it| it.vehicle));
+        for new in &departures.hand_overs[self.hand_overs..] {
+            let causes = simulation.played().filter(|it| it.vehicle == new.because_of);
+            for Played { recorded, .. } in causes {
+                self.traces.get_mut(&recorded).into_iter().for_each(|it| it.is_cut = true);
+            }
+        }
+        self.hand_overs = departures.hand_overs.len();
+    }
+
     fn see(&mut self, recorded: i64, vehicle: &Vehicle, simulation: &Simulation) {
         let (now, chain) = (simulation.clock().step, vehicle.spot.chain);
         let trace = self.traces.entry(recorded).or_insert_with(|| Trace {
             from: now,
             samples: Vec::new(),
             until: now,
+            is_cut: false,
             changed: None,
             chain,
         });
@@ -95,10 +122,11 @@ impl Tracer {
 fn sample(vehicle: &Vehicle, simulation: &Simulation) -> Sample {
     let scene = simulation.scene();
     let ahead = vehicle.is_in_lane().then(|| scene.ahead(scene.viewpoint(vehicle.spot))).flatten();
-    let at = vehicle.pose().at;
+    let Pose { at, heading } = vehicle.pose();
     Sample {
         speed: vehicle.speed(),
         gap: ahead.map_or(FARTHEST, |it| it.gap.clamp(0.0, FARTHEST)),
         at: [at.x, at.y],
+        heading,
     }
 }

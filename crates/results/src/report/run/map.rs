@@ -43,7 +43,7 @@ pub(super) fn section(run: &RunReport) -> Section {
 }
 
 /// A lanelet as it is seen from above.
-fn area(lanelet: &Lanelet) -> Area {
+pub fn area(lanelet: &Lanelet) -> Area {
     let [left, right] = [&lanelet.left_border, &lanelet.right_border].map(|it| it.points().iter());
     Area { name: lanelet.id.to_string(), outline: left.chain(right.rev()).map(in_plan).collect() }
 }

@@ -15,6 +15,8 @@ mod trips;
 use laneweave_network::Network;
 use laneweave_sim::LaneletAggregate;
 
+pub use map::area;
+
 use super::Page;
 use crate::outcome::{About, Provenance, Summary};
 use crate::report::kept::Record;

@@ -93,7 +93,42 @@ fn a_driver_goes_on_in_its_lane_at_its_speed_and_reacts() {
     assert!(is_past && behind.spot.chain != ahead.spot.chain || stands, "it has passed it, or stopped");
     let id = behind.id();
     world.remove_recorded(id);
-    assert!(world.vehicle(id).is_some(), "who drives is not taken off the road");
+    assert!(world.vehicle(id).is_none(), "a recording takes its drivers off the road, too");
+}
+
+#[test]
+fn a_driver_who_is_found_far_behind_its_leader_closes_in_slowly() {
+    let mut world = motorway();
+    // Two and a half seconds behind: twice its usual headway.
+    let [ahead, behind] = [66.0, 0.0].map(|it| {
+        let pose = further(&van(24.0), it);
+        put(&mut world, &RecordedVehicle { pose, ..van(24.0) })
+    });
+    assert!(world.release_recorded(behind, None, 1));
+    let mut speeds = Vec::new();
+    for step in 1..=600 {
+        world.move_recorded(ahead, further(&van(24.0), 66.0 + 2.4 * f64::from(step)));
+        world.step();
+        speeds.push(world.vehicle(behind).map(|it| it.speed()).expect("it is there"));
+    }
+    assert!((speeds[49] - 24.0).abs() < 0.7, "after 5 s: {} m/s", speeds[49]);
+    let [ahead, behind] = [ahead, behind].map(|it| world.vehicle(it).expect("it is there"));
+    let gap = ahead.motion.rear() - behind.x();
+    assert!(gap < 45.0, "after a minute the gap is {gap} m");
+}
+
+#[test]
+fn there_is_room_where_a_vehicle_is_or_behind_who_is_in_the_way() {
+    let mut world = motorway();
+    let standing = put(&mut world, &van(0.0));
+    assert_eq!(world.room_for(&van(0.0), 0.0), Err(standing));
+    let behind = world.room_for(&van(0.0), 30.0).expect("there is room behind");
+    assert!((190.0..194.0).contains(&behind.pose.x) && (behind.pose.y - 5.0).abs() < 0.5, "{behind:?}");
+    // At 25 m/s a vehicle does not come to a stop in 30 m.
+    assert_eq!(world.room_for(&van(25.0), 30.0), Err(standing));
+    let pose = RecordedPose { y: -80.0, ..van(0.0).pose };
+    let off_the_road = RecordedVehicle { pose, ..van(0.0) };
+    assert_eq!(world.room_for(&off_the_road, 0.0), Ok(off_the_road));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use laneweave::Simulation;
 use laneweave_recorded::Drone;
 use laneweave_recordings::{Recording, clean};
 use laneweave_scenario::scenario::{MapOptions, Origin, Replay, Scenario};
-use laneweave_scenario::{Fault, Player, Recorded};
+use laneweave_scenario::{AtItsEnd, Fault, Player, Recorded};
 
 use super::split::Piece;
 use crate::fit::sources::{Part, Sources};
@@ -75,6 +75,7 @@ impl Stage {
             recording: recording.clone(),
             from_s: (piece.release - first) as f64 * step,
             permitted: site.permitted.clone(),
+            at_its_end: AtItsEnd::DrivesOn,
         };
         let (asked, origin) = driven_by(&scenario, drivers);
         let simulation = Simulation::replaying(&asked, &origin, recorded)?;

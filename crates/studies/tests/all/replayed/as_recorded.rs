@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use laneweave::VehicleId;
+use laneweave::{Departures, VehicleId};
 use laneweave_recordings::{Recording, State, open};
 use laneweave_test_data::map;
 
@@ -36,6 +36,7 @@ fn assert_as_recorded(file: PathBuf, map: PathBuf) {
             compared += 1;
         }
     }
+    assert_eq!(simulation.departures(), &Departures::default(), "nobody is handed over, late, or taken off");
     let all: usize = states.values().map(HashMap::len).sum();
     let skipped = 1.1 * frames_a_step as f64;
     assert!(compared as f64 * skipped > all as f64, "{compared} of {all} states were compared");

@@ -1,8 +1,8 @@
-//! Collisions are told apart by who is at fault.
+//! Who is in the way of a recorded vehicle hands it over, so that nobody is run into.
 
 use laneweave::scenario::Origin;
 use laneweave_recordings::{Recording, RoadUser, State, Track};
-use laneweave_studies::replay::{Asked, Collisions, replay};
+use laneweave_studies::replay::{Asked, HandOvers, Matched, Mean, replay};
 use laneweave_test_data::map;
 
 use crate::replayed::set_up::{replayed, written};
@@ -20,8 +20,8 @@ fn car(id: i64, from_x: f64, lane_y: impl Fn(f64) -> f64, speed: impl Fn(f64) ->
     Track { id, class: RoadUser::Car, length: 4.5, width: 1.8, states }
 }
 
-/// The collisions of the recording of these cars, of which number 1 becomes a driver.
-fn collisions(tracks: Vec<Track>) -> Collisions {
+/// What happens in the recording of these cars, of which number 1 becomes a driver.
+fn replayed_once(tracks: Vec<Track>) -> Matched {
     let file = written(&Recording { step: 0.1, tracks });
     let mut scenario = replayed(file.clone(), map("motorway_3_lanes.osm"), 0.0);
     scenario.replay.reactive_ids = vec![1];
@@ -29,59 +29,79 @@ fn collisions(tracks: Vec<Track>) -> Collisions {
     scenario.output.dir = file.with_extension("out");
     let asked = Asked { rollouts: 1, models: Vec::new(), threads: 1 };
     let done = replay(&scenario, &Origin::default(), &asked, "a test", |_| (), || false).expect("it runs");
-    let it = done.report.expect("it was not interrupted").models[0].collisions;
-    let count = |it: f64| it as usize;
-    Collisions {
-        by_reactive: count(it.by_reactive),
-        by_recorded: count(it.by_recorded),
-        between_reactive: count(it.between_reactive),
-        between_recorded: count(it.between_recorded),
-    }
+    done.report.expect("it was not interrupted").models.remove(0)
+}
+
+fn of(mean: Option<Mean>) -> f64 {
+    mean.expect("there is one").mean
 }
 
 #[test]
-fn a_recorded_vehicle_that_does_not_stop_behind_a_driver_is_at_fault() {
+fn a_recorded_vehicle_behind_a_driver_who_stops_is_handed_over_and_stops_too() {
     // The leader stops; the follower drove on in another way than it could behind the driver.
     let stops = car(2, 150.0, |_| 1.75, |time| (20.0 - 4.0 * time).max(0.0));
     let wall =
         [5.25, 8.75].map(|y| car(y as i64 + 10, 150.0, move |_| y, |time| (20.0 - 4.0 * time).max(0.0)));
     let driver = car(1, 100.0, |_| 1.75, |_| 20.0);
-    let rams = car(3, 40.0, |_| 1.75, |_| 20.0);
+    let comes = car(3, 40.0, |_| 1.75, |_| 20.0);
     let [left, right] = wall;
-    let found = collisions(vec![driver, stops, rams, left, right]);
-    assert!(found.by_recorded >= 1 && found.by_reactive == 0 && found.between_reactive == 0, "{found:?}");
+    let found = replayed_once(vec![driver, stops, comes, left, right]);
+    assert_eq!(
+        (found.contacts_per_driver.map(|it| it.mean), found.collisions.between_recorded),
+        (Some(0.0), 0.0)
+    );
+    let HandOvers { share, compared_share, taken_off, late, .. } = found.hand_overs;
+    // One of the four, from a few seconds on to the end.
+    assert!((0.05..0.25).contains(&of(share)), "{share:?}");
+    assert!((0.05..0.6).contains(&of(compared_share)), "{compared_share:?}");
+    assert_eq!((taken_off, late), (0.0, 0.0));
 }
 
 #[test]
-fn a_recorded_vehicle_that_cuts_in_is_at_fault_and_recorded_ones_may_overlap() {
-    let beside = |time: f64| if time < 3.0 { 5.25 } else { (5.25 - 3.5 * (time - 3.0)).max(1.75) };
+fn who_is_in_nobodys_way_hands_nobody_over() {
+    let found = replayed_once(vec![car(1, 100.0, |_| 1.75, |_| 20.0), car(2, 40.0, |_| 1.75, |_| 15.0)]);
+    let HandOvers { per_veh_km, share, compared_share, .. } = found.hand_overs;
+    assert_eq!([of(per_veh_km), of(share), of(compared_share)], [0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn a_recorded_vehicle_that_would_cut_in_on_a_driver_waits_beside_it_and_recorded_ones_may_overlap() {
+    let beside = |time: f64| if time < 3.0 { 5.25 } else { (5.25 - 0.6 * (time - 3.0)).max(1.75) };
     let cuts_in = car(2, 101.0, beside, |_| 20.0);
-    let found = collisions(vec![car(1, 100.0, |_| 1.75, |_| 20.0), cuts_in]);
-    assert_eq!(found, Collisions { by_recorded: 1, ..Collisions::default() });
+    let found = replayed_once(vec![car(1, 100.0, |_| 1.75, |_| 20.0), cuts_in]);
+    assert!(found.collisions.by_recorded == 0.0 && of(found.hand_overs.share) > 0.0, "{found:?}");
     let overlap = [car(3, 300.0, |_| 1.75, |_| 20.0), car(4, 298.0, |_| 1.75, |_| 20.0)];
-    let found = collisions([vec![car(1, 100.0, |_| 5.25, |_| 20.0)], overlap.to_vec()].concat());
-    assert_eq!(found, Collisions { between_recorded: 1, ..Collisions::default() });
+    let found = replayed_once([vec![car(1, 100.0, |_| 5.25, |_| 20.0)], overlap.to_vec()].concat());
+    assert_eq!((found.collisions.between_recorded, of(found.contacts_per_driver)), (1.0, 0.0));
+    assert_eq!(of(found.hand_overs.share), 0.0, "both are where the recording has them");
 }
 
 #[test]
-fn a_driver_comes_onto_the_road_as_soon_as_there_is_room_for_it() {
-    // The leader stops where the other one comes later: as recorded, they would overlap.
-    let stops = car(2, 100.0, |_| 1.75, |time| (20.0 - 8.0 * time).max(0.0));
-    let mut comes = car(1, 118.0, |_| 1.75, |_| 20.0);
-    comes.states.iter_mut().for_each(|it| it.frame += 30);
-    let recording = Recording { step: 0.1, tracks: vec![stops, comes] };
-    let file = written(&recording);
-    let mut scenario = replayed(file, map("motorway_3_lanes.osm"), 1.0);
+fn a_driver_leaves_when_its_record_ends_and_one_whose_place_is_taken_comes_behind() {
+    // Number 2 stands where number 1 is first seen, since it became a driver 3 s before.
+    let mut ends = car(1, 118.0, |_| 1.75, |_| 20.0);
+    ends.states.truncate(100);
+    ends.states.iter_mut().for_each(|it| it.frame += 30);
+    let recording = Recording {
+        step: 0.1,
+        tracks: vec![car(2, 100.0, |_| 1.75, |time| (20.0 - 8.0 * time).max(0.0)), ends],
+    };
+    let mut scenario = replayed(written(&recording), map("motorway_3_lanes.osm"), 1.0);
     scenario.styles = [("conservative".to_owned(), 1.0)].into();
     let mut simulation = crate::replayed::set_up::ready(&scenario);
-    let mut came = None;
+    let mut last_seen = 0;
     for step in 1..=150 {
         simulation.advance();
-        if came.is_none() && simulation.played().any(|it| it.recorded == 1) {
-            came = Some(step);
+        let first = simulation.played().find(|it| it.recorded == 1);
+        if first.is_some_and(|it| simulation.view(it.vehicle).is_some()) {
+            last_seen = step;
         }
     }
-    // Its own place is free when it is recorded there, but the one who stopped drives on as a driver and is behind it.
-    assert!(came.is_some_and(|it| (30..=150).contains(&it)), "{came:?}");
+    let departures = simulation.departures();
+    assert_eq!((departures.taken_off.as_slice(), last_seen), ([1].as_slice(), 129));
+    for start in &departures.starts {
+        assert!(start.recorded == 1 && start.because_of.is_some(), "{start:?}");
+        assert!(start.behind_m > 0.0 || start.late_steps > 0);
+    }
     assert_eq!(simulation.counters().collisions, 0);
 }
