@@ -5,15 +5,18 @@
 //! likelihood of the hidden process free → wants → changes, with its gradient; `choice.rs` has that of choices which
 //! were observed exactly.
 //!
-//! `study.rs` puts a fit together: spreads of priors (`place_spread.rs`), the profile of β, bootstrap, classes
-//! (`classes.rs`), held-out drivers (`held_out.rs`). Gradients are added up in chunks of fixed size, so that the
-//! number of threads changes nothing.
+//! [`following`] fits how drivers follow: the numbers of their car-following model.
+//!
+//! `study.rs` puts a fit of lane changes together: spreads of priors (`place_spread.rs`), the profile of β, bootstrap,
+//! classes (`classes.rs`), held-out drivers (`held_out.rs`). Gradients are added up in chunks of fixed size, so that
+//! the number of threads changes nothing.
 
 mod choice;
 mod classes;
 mod correction;
 mod desire_model;
 mod extrapolation;
+pub mod following;
 mod held_out;
 mod matrix;
 mod maximise;

@@ -134,6 +134,11 @@ impl Cholesky {
         x
     }
 
+    /// The logarithm of the determinant of A.
+    pub(crate) fn log_determinant(&self) -> f64 {
+        2.0 * self.lower.diagonal().map(libm::log).sum::<f64>()
+    }
+
     /// The inverse of A. It is symmetric: what solves for a column is written as a row.
     pub(crate) fn inverse(&self) -> Matrix {
         let mut inverse = Matrix::zeros(self.lower.size);

@@ -9,7 +9,8 @@ use laneweave_models::change::Driver;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_recorded::Replay;
 use laneweave_recordings::Matched;
-use laneweave_sim::driver_of;
+use laneweave_sim::{Spot, driver_of};
+use rayon::prelude::*;
 
 use super::in_view::InView;
 use crate::waiting::MOST_NODES;
@@ -34,7 +35,7 @@ impl DesiredSpeed {
 }
 
 /// A driver with a longer time gap, or with nobody ahead, drives freely [s].
-const FREE: f64 = 4.0;
+pub(crate) const FREE: f64 = 4.0;
 /// A driver that accelerates or brakes more has not its desired speed [m/s²].
 const STEADY: f64 = 0.3;
 /// A driver's speeds are alike for this time [s]: it gives as many independent looks (ours).
@@ -45,6 +46,8 @@ const USUAL_ERROR: f64 = 0.03;
 /// The distribution of a recording without any free driver, and with how many drivers' weight it counts (ours).
 const USUAL: (f64, f64) = (0.0, 0.12);
 const USUAL_WEIGHT: f64 = 4.0;
+/// The standard deviation of that distribution, and that weight.
+pub(crate) const USUAL_LOGS: (f64, f64) = (USUAL.1, USUAL_WEIGHT);
 /// Smallest and largest standard deviation of the logarithms (ours: free speeds of drivers on one road differ by 10 to
 /// 15 %). More comes from places, such as bends and limits that the map has wrong.
 const LEAST: f64 = 0.02;
@@ -55,7 +58,7 @@ const STEPS: usize = 30;
 
 /// What a track shows of its driver: logarithms of factors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Shown {
+pub(crate) struct Shown {
     /// The mean while it drove freely, and its standard error.
     free: Option<(f64, f64)>,
     /// The speed that it did not exceed for nine tenths of the time.
@@ -66,7 +69,9 @@ struct Shown {
 /// deviation of the logarithms of the factors. Drivers who were held up count in it, too: those who drive freely are
 /// often the slower ones.
 pub(super) fn desired_speeds(matched: &Matched, replay: &Replay) -> (Vec<DesiredSpeed>, [f64; 2]) {
-    let shown = shown(matched, replay);
+    let speeds = Speeds::of(matched, replay);
+    let shown: Vec<Option<Shown>> =
+        (0..speeds.tracks.len()).map(|track| speeds.shown(track, i64::MAX)).collect();
     let known: Vec<&Shown> = shown.iter().flatten().collect();
     let distribution = distribution(&known);
     let of = |it: &Option<Shown>| posterior(it.as_ref(), distribution);
@@ -76,43 +81,71 @@ pub(super) fn desired_speeds(matched: &Matched, replay: &Replay) -> (Vec<Desired
 /// Drivers are looked at so often [s].
 const EVERY: f64 = 1.0;
 
-fn shown(matched: &Matched, replay: &Replay) -> Vec<Option<Shown>> {
-    let tracks = matched.recording.tracks.len();
-    let (mut free, mut all) = (vec![Vec::new(); tracks], vec![Vec::new(); tracks]);
-    let Some((first, last)) = matched.recording.frames() else { return vec![None; tracks] };
-    let in_view = InView::of(matched);
-    let every = (EVERY / matched.recording.step).round().max(1.0) as usize;
-    for number in (first..=last).step_by(every) {
-        let frame = replay.frame(number);
-        let scene = frame.scene();
-        for spot in frame.vehicles().filter_map(|it| frame.spot(it)) {
-            let motion = scene.motion(spot);
-            let limit = matched.network.chain(spot.chain).limit(motion.x);
-            let allowed = scene.driver(spot).class.allowed(limit, &matched.network.law);
-            let factor = motion.speed / allowed;
-            if factor.is_nan() || factor <= SLOWEST {
-                continue;
-            }
-            all[motion.id as usize].push(libm::log(factor));
-            let ahead = scene.ahead(scene.viewpoint(spot));
-            let far = FREE * motion.speed;
-            // Who has nobody ahead may follow somebody whom the recording does not show.
-            let is_free = match ahead {
-                Some(it) => it.gap > far,
-                None => in_view.shows(spot.chain, motion.x, far),
-            };
-            if is_free && motion.acceleration.abs() < STEADY as f32 {
-                let desired = desired_by(&driver_of(&scene, spot), ahead, allowed);
-                free[motion.id as usize].extend(desired.map(libm::log));
-            }
-        }
+/// What the speeds of all drivers show, look by look.
+pub(crate) struct Speeds {
+    /// For each track its looks in the order of time.
+    tracks: Vec<Vec<SpeedSeen>>,
+}
+
+/// What the speed of a driver shows at one time: logarithms of factors.
+struct SpeedSeen {
+    frame: i64,
+    driven: f64,
+    /// The desired speed, if it drives freely.
+    free: Option<f64>,
+}
+
+impl Speeds {
+    /// What the drivers of the recording of `matched` show.
+    pub(crate) fn of(matched: &Matched, replay: &Replay) -> Speeds {
+        let mut tracks: Vec<Vec<SpeedSeen>> = matched.recording.tracks.iter().map(|_| Vec::new()).collect();
+        let Some((first, last)) = matched.recording.frames() else { return Speeds { tracks } };
+        let in_view = InView::of(matched);
+        let every = (EVERY / matched.recording.step).round().max(1.0) as usize;
+        let frames: Vec<i64> = (first..=last).step_by(every).collect();
+        let of = |number: &i64| seen_at(matched, replay, &in_view, *number);
+        let seen: Vec<Vec<(usize, SpeedSeen)>> = frames.par_iter().map(of).collect();
+        seen.into_iter().flatten().for_each(|(track, it)| tracks[track].push(it));
+        Speeds { tracks }
     }
-    let reached = |mut logs: Vec<f64>| {
-        logs.sort_by(f64::total_cmp);
-        logs.get(logs.len() * 9 / 10).copied()
+
+    /// What the speeds of a track show up to the frame number `until`.
+    pub(crate) fn shown(&self, track: usize, until: i64) -> Option<Shown> {
+        let looks = &self.tracks[track];
+        let looks = &looks[..looks.partition_point(|it| it.frame <= until)];
+        let free: Vec<f64> = looks.iter().filter_map(|it| it.free).collect();
+        let mut driven: Vec<f64> = looks.iter().map(|it| it.driven).collect();
+        driven.sort_by(f64::total_cmp);
+        let reached = *driven.get(driven.len() * 9 / 10)?;
+        Some(Shown { free: mean_of(&free), reached })
+    }
+}
+
+/// What the speeds of all drivers show in one frame, by track.
+fn seen_at(matched: &Matched, replay: &Replay, in_view: &InView, number: i64) -> Vec<(usize, SpeedSeen)> {
+    let frame = replay.frame(number);
+    let scene = frame.scene();
+    let of = |spot: Spot| {
+        let motion = scene.motion(spot);
+        let limit = matched.network.chain(spot.chain).limit(motion.x);
+        let allowed = scene.driver(spot).class.allowed(limit, &matched.network.law);
+        let factor = motion.speed / allowed;
+        if factor.is_nan() || factor <= SLOWEST {
+            return None;
+        }
+        let ahead = scene.ahead(scene.viewpoint(spot));
+        let far = FREE * motion.speed;
+        // Who has nobody ahead may follow somebody whom the recording does not show.
+        let is_free = match ahead {
+            Some(it) => it.gap > far,
+            None => in_view.shows(spot.chain, motion.x, far),
+        };
+        let is_shown = is_free && motion.acceleration.abs() < STEADY as f32;
+        let desired = || desired_by(&driver_of(&scene, spot), ahead, allowed).map(libm::log);
+        let free = if is_shown { desired() } else { None };
+        Some((motion.id as usize, SpeedSeen { frame: number, driven: libm::log(factor), free }))
     };
-    let both = all.into_iter().zip(free);
-    both.map(|(all, free)| Some(Shown { free: mean_of(&free), reached: reached(all)? })).collect()
+    frame.vehicles().filter_map(|it| frame.spot(it)).filter_map(of).collect()
 }
 
 /// The slowest and the fastest that a driver may want, as factors.
@@ -155,7 +188,7 @@ fn mean_of(logs: &[f64]) -> Option<(f64, f64)> {
 }
 
 /// Mean and standard deviation of the logarithms over all drivers.
-fn distribution(known: &[&Shown]) -> (f64, f64) {
+pub(crate) fn distribution(known: &[&Shown]) -> (f64, f64) {
     let free: Vec<f64> = known.iter().filter_map(|it| Some(it.free?.0)).collect();
     let mut now = USUAL;
     if !free.is_empty() {
@@ -199,7 +232,7 @@ fn grid(shown: Option<&Shown>, (mean, deviation): (f64, f64)) -> impl Iterator<I
 }
 
 /// The first two moments of a driver's logarithm.
-fn moments(shown: &Shown, distribution: (f64, f64)) -> (f64, f64) {
+pub(crate) fn moments(shown: &Shown, distribution: (f64, f64)) -> (f64, f64) {
     let (mut all, mut sum, mut squares) = (0.0, 0.0, 0.0);
     for (log, weight) in grid(Some(shown), distribution) {
         (all, sum, squares) = (all + weight, sum + weight * log, squares + weight * log * log);

@@ -4,7 +4,7 @@ use laneweave_network::{ChainIndex, Network};
 use laneweave_recordings::Matched;
 
 /// What a recording shows of each lane.
-pub(super) struct InView<'a> {
+pub(crate) struct InView<'a> {
     network: &'a Network,
     /// For each chain the furthest place at which a vehicle was seen [m]; none where nobody was.
     furthest: Vec<Option<f64>>,
@@ -15,7 +15,7 @@ const NEAR_THE_END: f64 = 15.0;
 
 impl<'a> InView<'a> {
     /// What the recording of `matched` shows.
-    pub(super) fn of(matched: &Matched<'a>) -> InView<'a> {
+    pub(crate) fn of(matched: &Matched<'a>) -> InView<'a> {
         let mut furthest: Vec<Option<f64>> = vec![None; matched.network.chains.len()];
         for place in matched.places.iter().flatten().flatten() {
             let start = matched.network.start_of(place.lanelet);
@@ -28,7 +28,7 @@ impl<'a> InView<'a> {
 
     /// Whether the lane is in view for `distance` [m] from `x` [m] on `chain` on, and on at least one branch of each
     /// fork. Beyond the end of the road nothing is.
-    pub(super) fn shows(&self, chain: ChainIndex, x: f64, distance: f64) -> bool {
+    pub(crate) fn shows(&self, chain: ChainIndex, x: f64, distance: f64) -> bool {
         let lane = self.network.chain(chain);
         let Some(furthest) = self.furthest[chain.at()] else { return false };
         if furthest - x >= distance {

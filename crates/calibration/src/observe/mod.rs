@@ -18,6 +18,8 @@ use rayon::prelude::*;
 
 pub use changes::{ObservedChange, Unused};
 pub use desired::{DesiredSpeed, NODES};
+pub(crate) use desired::{FREE, Shown, Speeds, USUAL_LOGS, distribution, moments};
+pub(crate) use in_view::InView;
 pub use known::{FreeTime, Known};
 pub use place::Place;
 pub use side::{ByDesired, PLAIN, SideSeen, gap_terms};

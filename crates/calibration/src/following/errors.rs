@@ -1,0 +1,179 @@
+//! How wrong predictions of a stretch are: errors of one stretch belong together, and a few are large.
+//!
+//! The errors of way and speed after each second are one vector with a multivariate t distribution (Lange, Little,
+//! Taylor 1989, J. Am. Stat. Assoc. 84, 881): a stretch in which a driver reacts to something else weighs less. Its
+//! scales are estimated from the errors themselves; those of drivers who follow, who stand or crawl, and who are free
+//! differ.
+//!
+//! Errors of one stretch are strongly correlated. With all of that correlation the likelihood looks at what a driver
+//! does within the first seconds, where recorded speeds are uncertain and drivers react late; the numbers of a model
+//! whose driver reacts at once then come out wrong, above all a. So only a part of the correlation is used (a working
+//! covariance: Liang, Zeger 1986, Biometrika 73, 13). Estimates of a model that is right are consistent with any such
+//! part, and standard errors do not rely on it.
+
+use super::predict::Moved;
+use super::stretch::{SECONDS, Stretch};
+use crate::matrix::{Cholesky, Matrix, dot};
+
+/// Number of errors of a stretch: of ways, then of speeds.
+pub(super) const SIZE: usize = 2 * SECONDS;
+/// ν: the degrees of freedom (ours).
+const FREEDOM: f64 = 4.0;
+/// Part of the correlation of the errors of one stretch that is used (ours).
+const USED: f64 = 0.2;
+/// Below this speed at the start of a stretch a driver crawls [m/s] (ours).
+const CRAWLS: f64 = 3.0;
+/// The kinds of stretches whose errors differ.
+const KINDS: usize = 3;
+/// Stretches of a kind that show its scales; fewer are taken with those of all kinds (ours).
+const ENOUGH: usize = 10 * SIZE;
+/// Least standard deviation of an error, in metres and metres per second (ours): recordings are not more exact.
+const LEAST: f64 = 0.01;
+
+/// The errors of a stretch: by how much a prediction is too far, and too fast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Off {
+    /// The kind of the stretch.
+    pub(super) kind: usize,
+    pub(super) errors: [f64; SIZE],
+}
+
+/// By how much a prediction is too far [m], and too fast [m/s].
+pub(super) fn errors(predicted: &[Moved; SECONDS], stretch: &Stretch) -> [f64; SIZE] {
+    let seen = &stretch.own[1..];
+    std::array::from_fn(|it| match it.checked_sub(SECONDS) {
+        None => predicted[it].way - seen[it].way,
+        Some(second) => predicted[second].speed - seen[second].speed,
+    })
+}
+
+/// The kind of a stretch.
+pub(super) fn kind(stretch: &Stretch) -> usize {
+    match stretch.leader {
+        None => 0,
+        Some(_) if stretch.own[0].speed < CRAWLS => 1,
+        Some(_) => 2,
+    }
+}
+
+/// The distributions of the errors of all kinds.
+pub(super) struct Errors {
+    kinds: Vec<Scale>,
+}
+
+/// The scale matrix of a distribution, factored, and the logarithm of its determinant.
+struct Scale {
+    factor: Cholesky,
+    log_determinant: f64,
+}
+
+/// What errors count.
+pub(super) struct Weighed {
+    /// The inverse of the scale matrix times the errors, times the weight of the stretch.
+    pub(super) slope: Vec<f64>,
+    /// The weight: 1 or a little more for usual errors, less for large ones.
+    pub(super) weight: f64,
+    /// The log-likelihood, but for a constant.
+    pub(super) log: f64,
+}
+
+impl Errors {
+    /// Twice the share by which a large error bends the likelihood less: 2/(ν + p).
+    pub(super) const BENT: f64 = 2.0 / (FREEDOM + SIZE as f64);
+
+    /// Those that `all` show: by a step of expectation and maximisation from `before` on. `None` without any.
+    pub(super) fn of(all: &[Off], before: Option<&Errors>) -> Option<Errors> {
+        let of_kind = |kind: usize| {
+            let own: Vec<&Off> = all.iter().filter(|it| it.kind == kind).collect();
+            let own = if own.len() < ENOUGH { all.iter().collect() } else { own };
+            Scale::of(&own, before)
+        };
+        Some(Errors { kinds: (0..KINDS).map(of_kind).collect::<Option<_>>()? })
+    }
+
+    /// What `errors` of a stretch of this kind count.
+    pub(super) fn weighed(&self, kind: usize, errors: &[f64; SIZE]) -> Weighed {
+        let Scale { factor, log_determinant } = &self.kinds[kind];
+        let mut slope = factor.solve(errors);
+        let square = dot(&slope, errors);
+        let all = FREEDOM + SIZE as f64;
+        let weight = all / (FREEDOM + square);
+        slope.iter_mut().for_each(|it| *it *= weight);
+        let log = -0.5 * log_determinant - 0.5 * all * libm::log1p(square / FREEDOM);
+        Weighed { slope, weight, log }
+    }
+
+    /// The inverse of the scale matrix of this kind times `values`.
+    pub(super) fn solved(&self, kind: usize, values: &[f64; SIZE]) -> Vec<f64> {
+        self.kinds[kind].factor.solve(values)
+    }
+}
+
+impl Scale {
+    /// That of `all`, each with the weight that it has `before`.
+    fn of(all: &[&Off], before: Option<&Errors>) -> Option<Scale> {
+        let (mut sum, count) = (Matrix::zeros(SIZE), all.len() as f64);
+        for Off { kind, errors } in all {
+            let weight = before.map_or(1.0, |it| it.weighed(*kind, errors).weight);
+            sum.add_outer(weight, errors, errors);
+        }
+        let mut scale = Matrix::zeros(SIZE);
+        for row in 0..SIZE {
+            (0..SIZE).for_each(|column| scale[(row, column)] = USED * sum[(row, column)] / count);
+            scale[(row, row)] = sum[(row, row)] / count + LEAST * LEAST;
+        }
+        let factor = Cholesky::of(&scale)?;
+        let log_determinant = factor.log_determinant();
+        Some(Scale { factor, log_determinant })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn off(errors: [f64; SIZE]) -> Off {
+        Off { kind: 2, errors }
+    }
+
+    /// As many vectors as there are errors, each with one error of its own and one that all have.
+    fn toy() -> Vec<Off> {
+        let own = |at: usize| off(std::array::from_fn(|it| if it == at { 3.0 } else { 1.0 }));
+        (0..SIZE).map(own).collect()
+    }
+
+    #[test]
+    fn errors_are_whitened_by_a_fifth_of_their_correlation() {
+        let errors = Errors::of(&toy(), None).unwrap();
+        // Variances (9 + 15)/16 = 1.5, covariances (6 + 14)/16 = 1.25, of which a fifth is .25.
+        let variance = 1.5 + LEAST * LEAST;
+        let ones = errors.solved(2, &[1.0; SIZE]);
+        let exact = 1.0 / (variance + 15.0 * 0.25);
+        assert!(ones.iter().all(|it| (it - exact).abs() < 1e-12), "{ones:?}");
+        let mut contrast = [0.0; SIZE];
+        (contrast[0], contrast[1]) = (1.0, -1.0);
+        let solved = errors.solved(2, &contrast);
+        assert!((solved[0] - 1.0 / (variance - 0.25)).abs() < 1e-12, "{solved:?}");
+    }
+
+    #[test]
+    fn large_errors_weigh_less() {
+        let errors = Errors::of(&toy(), None).unwrap();
+        let exact = 1.0 / (1.5 + LEAST * LEAST + 15.0 * 0.25);
+        let weighed = errors.weighed(2, &[2.0; SIZE]);
+        assert!((weighed.weight - 20.0 / (4.0 + 64.0 * exact)).abs() < 1e-12);
+        assert!((weighed.slope[0] - weighed.weight * 2.0 * exact).abs() < 1e-12);
+        assert!(errors.weighed(2, &[20.0; SIZE]).weight < 0.02);
+        // The slope is that of the log-likelihood.
+        let log = |it: f64| errors.weighed(2, &[it; SIZE]).log;
+        let slope = (log(2.0 + 1e-5) - log(2.0 - 1e-5)) / 2e-5;
+        assert!((slope + weighed.slope.iter().sum::<f64>()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_kind_of_which_little_was_seen_has_the_errors_of_all() {
+        let errors = Errors::of(&toy(), None).unwrap();
+        assert_eq!(errors.solved(0, &[1.0; SIZE]), errors.solved(2, &[1.0; SIZE]));
+        assert!(Errors::of(&[], None).is_none());
+    }
+}
