@@ -6,6 +6,7 @@ use laneweave_scenario::Fault;
 
 use super::Observed;
 use super::accepted::Accepted;
+use super::following::FollowingReport;
 use super::prediction::{HeldOut, Predictive};
 use super::report::{BetaReport, ByPaper, FitReport, Spread, WeightReport, WithLead};
 use super::style::styles;
@@ -23,6 +24,7 @@ impl FitReport {
         let mut report = FitReport {
             data: observed.plan(),
             leads_s: observations.recordings.iter().map(|it| it.lead).collect(),
+            following: FollowingReport::of(&observed.following),
             weights: weights(observed, study),
             theta: weight(&study.theta),
             correction: None,

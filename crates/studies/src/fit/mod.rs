@@ -1,10 +1,11 @@
 //! Driving styles fitted to recordings.
 //!
-//! [`Request::observe`] reads recordings and their maps, and notes what every driver could choose. [`Observed::plan`]
-//! says what they can tell; [`Observed::fit`] fits styles to them.
+//! [`Request::observe`] reads recordings and their maps, fits how drivers follow, and notes what every driver could
+//! choose. [`Observed::plan`] says what they can tell; [`Observed::fit`] fits styles to them.
 
 mod accepted;
 mod correct;
+mod following;
 mod found;
 mod judge;
 #[cfg(feature = "reports")]
@@ -18,6 +19,7 @@ mod words;
 
 use std::path::{Path, PathBuf};
 
+use laneweave_calibration::following::{FollowingFit, NotFitted};
 use laneweave_calibration::observe::{Begin, Observations, PLAIN};
 use laneweave_calibration::{Asked, Classes, Folds, PriorWeights, Study, by_paper};
 use laneweave_models::change::{LaneChangeModel, Mcdm};
@@ -26,8 +28,10 @@ use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::MapOptions;
 use laneweave_scenario::style::{StyleTemplate, find};
 
+use following::with_following;
 use sources::Sources;
 
+pub use following::{FollowingNumber, FollowingPrediction, FollowingReport, Off};
 pub use judge::{Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
 #[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};
@@ -99,6 +103,8 @@ impl Request {
 pub struct Observed {
     request: Request,
     sources: Sources,
+    /// How its drivers follow.
+    following: Result<FollowingFit, NotFitted>,
     observations: Observations,
     prior: PriorStyle,
 }
@@ -107,22 +113,35 @@ pub struct Observed {
 #[derive(Clone, Debug)]
 struct PriorStyle {
     template: StyleTemplate,
-    /// It with the medians of its distributed numbers, and the reading that was asked for.
+    /// It with the medians of its distributed numbers, the reading that was asked for, and fitted following.
     typical: Style,
     mcdm: Mcdm,
 }
 
 impl Request {
-    /// Reads the recordings, and notes what their drivers could choose.
+    /// Reads the recordings, fits how their drivers follow, and notes what they could choose.
     ///
     /// # Errors
     /// If a file cannot be read or is of no known format, a recording lies outside its map, or the prior style is not
     /// one of multi-criteria decision-making.
     pub fn observe(&self) -> Result<Observed, Fault> {
         let prior = self.prior_style()?;
-        let sources = Sources::read(self)?;
+        self.observed(Sources::read(self)?, prior)
+    }
+
+    /// Fits following to recordings beside a style that has none yet, and notes what drivers who follow so could
+    /// choose.
+    fn observed(&self, sources: Sources, mut prior: PriorStyle) -> Result<Observed, Fault> {
+        let followers = sources.followers(&prior.typical)?;
+        let following = followers.fit(&prior.typical, &self.folds(), self.draws);
+        prior.typical = with_following(&prior.typical, &following);
         let observations = sources.observations(&prior.typical, self.begin())?;
-        Ok(Observed { request: self.clone(), sources, observations, prior })
+        Ok(Observed { request: self.clone(), sources, following, observations, prior })
+    }
+
+    /// How drivers are held out.
+    fn folds(&self) -> Folds {
+        Folds { repetitions: self.repetitions, parts: 3, draws: 1000, seed: self.seed }
     }
 
     /// When changes begin.
@@ -211,9 +230,8 @@ impl Observed {
 
     /// What is asked of the fit.
     fn asked(&self) -> Asked {
-        let Request { draws, repetitions, classes, seed, .. } = self.request;
-        let folds = Folds { repetitions, parts: 3, draws: 1000, seed };
-        Asked { prior: self.weights(), draws, folds, classes }
+        let Request { draws, classes, .. } = self.request;
+        Asked { prior: self.weights(), draws, folds: self.request.folds(), classes }
     }
 
     /// Refuses recordings without a lane change that can be used.

@@ -3,6 +3,7 @@
 use laneweave_results::report::{Align, Figure, Page, Section, Table, counted};
 use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
+use super::following::Off;
 use super::found::by_paper_terms;
 use super::judge;
 use super::prediction::HeldOut;
@@ -48,7 +49,7 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
             "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
              significantly, by 1.92 nats, on both sides.",
         ));
-    let page = page.section(held_out_section(report));
+    let page = page.section(following(report)).section(held_out_section(report));
     let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
     let page = match &report.judged {
         Some(judged) => page.section(judge::section(judged)),
@@ -190,6 +191,55 @@ fn figure(report: &FitReport, sheet: Sheet) -> Figure {
             counted(report.data.events_used as u64)
         ),
     }
+}
+
+fn following(report: &FitReport) -> Section {
+    let following = &report.following;
+    let section = Section::new("following", "Following");
+    if let Some(why) = following.not_fitted {
+        return section.text(format!("The prior style's: {why}."));
+    }
+    let columns = [
+        ("number", Align::Words),
+        ("estimate", Align::Numbers),
+        ("95 % interval", Align::Numbers),
+        ("prior", Align::Numbers),
+        ("identified", Align::Words),
+    ];
+    let what = format!("Fitted to {} drivers in {:.0} s.", following.drivers, following.seconds);
+    let mut numbers = Table::new(what, &columns);
+    for it in &following.numbers {
+        let interval = format!("{:.3} to {:.3}", it.interval[0], it.interval[1]);
+        let identified = if it.is_identified { "yes" } else { "no: the style has the prior's" };
+        let cells = [it.name.key().to_owned(), format!("{:.3}", it.estimate), interval];
+        numbers.row(cells.into_iter().chain([format!("{:.3}", it.prior), identified.to_owned()]));
+    }
+    section.table(numbers).text(following.own()).table(followed(report)).text(
+        "Drivers are simulated through stretches of eight seconds in which they follow one leader, or nobody, behind the leader as \
+         recorded. A number is identified if its standard error is at most half of the prior's and the likelihood falls significantly to \
+         half and to twice the estimate. A third of the drivers is held out in turn; of them only what came before a prediction is known.",
+    )
+}
+
+/// Predictions of the following of held-out drivers.
+fn followed(report: &FitReport) -> Table {
+    let columns = [
+        ("after [s]", Align::Numbers),
+        ("fitted", Align::Numbers),
+        ("prior", Align::Numbers),
+        ("constant speed", Align::Numbers),
+        ("fitted is", Align::Words),
+    ];
+    let what = "Held-out drivers: mean errors of distance [m] and of speed [m/s].";
+    let mut table = Table::new(what, &columns);
+    for it in &report.following.predictions {
+        let off = |it: Off| format!("{:.2} m, {:.2} m/s", it.distance_m, it.speed_mps);
+        let off = [it.fitted, it.prior, it.constant_speed].map(off);
+        let verdict = format!("{} than a constant speed", it.fitted_is);
+        let verdict = if it.fitted_is.starts_with("not") { it.fitted_is.to_owned() } else { verdict };
+        table.row([format!("{:.1}", it.after_s)].into_iter().chain(off).chain([verdict]));
+    }
+    table
 }
 
 fn held_out_section(report: &FitReport) -> Section {

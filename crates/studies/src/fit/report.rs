@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::following::FollowingReport;
 use super::judge::report::Judged;
 use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
@@ -17,6 +18,8 @@ pub struct FitReport {
     pub data: Plan,
     /// When changes begin: time before the crossing of each recording [s]; none where the paths show it.
     pub leads_s: Vec<Option<f64>>,
+    /// How drivers follow.
+    pub following: FollowingReport,
     /// The fitted weights in units of the choice noise.
     pub weights: Vec<WeightReport>,
     /// θ in units of the choice noise, at a place of the mean intercept.

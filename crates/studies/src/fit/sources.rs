@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use laneweave::sim::Navigator;
+use laneweave_calibration::following::Followers;
 use laneweave_calibration::observe::{Begin, Observations, Options, Origin, observe};
 use laneweave_maps::FileKind;
 use laneweave_models::Style;
@@ -92,6 +93,16 @@ impl Sources {
     /// A recording with the places of its vehicles.
     pub(super) fn matched<'a>(&'a self, part: &'a Part) -> Matched<'a> {
         Matched::new(&self.sites[part.site].network, &part.recording)
+    }
+
+    /// How drivers follow whose road is that of drivers of the style `typical`.
+    pub(super) fn followers(&self, typical: &Style) -> Result<Followers, Fault> {
+        let mut followers = Followers::default();
+        for part in &self.parts {
+            let added = followers.add(&self.matched(part), &self.sites[part.site].navigator, typical);
+            added.map_err(|error| Fault::new(&typical.name, error, "choose another style"))?;
+        }
+        Ok(followers)
     }
 
     /// What drivers of the style `typical` could choose, if their changes begin as `begin` says.

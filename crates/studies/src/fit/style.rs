@@ -1,6 +1,7 @@
 //! Fitted styles as files that the simulator takes.
 
 use laneweave_calibration::Study;
+use laneweave_calibration::following::FollowingFit;
 use laneweave_calibration::observe::PLAIN;
 use laneweave_calibration::waiting::Layout;
 use laneweave_models::Parameter;
@@ -10,6 +11,7 @@ use laneweave_study::middle_95;
 use toml::{Table, Value};
 
 use super::Observed;
+use super::following::own_time_gaps;
 use super::report::{ClassReport, ENOUGH, FitReport, FittedStyle, Spread, WeightReport};
 
 /// The name of the fitted style; those of several classes have a number, too: `fitted-1`.
@@ -60,6 +62,9 @@ fn text_of(
     if enough(report.desired_speed_factors.as_ref()).is_some() {
         table.insert("speed_factor".into(), lognormal(report.desired_speed_logs, [0.5, 2.0]));
     }
+    if let Ok(following) = &observed.following {
+        set_following(&mut table, following);
+    }
     let mut change =
         Table::try_from(&observed.prior.typical.change).map_err(|error| Fault::bug(&class.style, error))?;
     set_change(&mut change, observed, report, class);
@@ -84,6 +89,17 @@ fn text_of(
     table.insert("fit".into(), Value::Table(provenance(observed, study, report, number)));
     let text = toml::to_string_pretty(&table).map_err(|error| Fault::bug(&class.style, error))?;
     Ok(format!("{}\n{text}", header(report)))
+}
+
+/// Writes how drivers follow: numbers that all have, and time gaps that differ if they do.
+fn set_following(table: &mut Table, following: &FollowingFit) {
+    for it in &following.numbers {
+        let key = it.parameter.key().trim_start_matches("follow.");
+        set(table, "follow", key, Value::Float((it.value * 1e4).round() / 1e4));
+    }
+    if let Some(logs) = own_time_gaps(following) {
+        set(table, "follow", "time_gap", lognormal(logs, [0.3, 4.0]));
+    }
 }
 
 /// Sets a key of a section.
@@ -165,7 +181,20 @@ fn draws(observed: &Observed, study: &Study, class: usize) -> Vec<Vec<(Parameter
         let weights: Vec<f64> = layout.slopes().map(|at| it[at]).collect();
         numbers(observed, -it[layout.intercept()] - study.mean_place, &weights)
     };
-    all.iter().map(numbers_of).collect()
+    let following = observed.following.as_ref().map_or(&[][..], |it| &it.draws);
+    let mut draws: Vec<Vec<(Parameter, f64)>> = all.iter().map(numbers_of).collect();
+    for (draw, following) in draws.iter_mut().zip(following) {
+        draw.extend(following_numbers(observed, following));
+    }
+    draws
+}
+
+/// The fitted numbers of following that are the same for all drivers, from T, s₀, a and b of a draw.
+fn following_numbers(observed: &Observed, drawn: &[f64; 4]) -> Vec<(Parameter, f64)> {
+    let Ok(following) = &observed.following else { return Vec::new() };
+    let differs = own_time_gaps(following).is_some();
+    let each = following.numbers.iter().map(|it| it.parameter).zip(*drawn);
+    each.filter(|it| !(differs && it.0 == Parameter::TimeGap)).collect()
 }
 
 /// Where the numbers come from, with their intervals and the draws of the bootstrap.
@@ -176,7 +205,8 @@ fn provenance(observed: &Observed, study: &Study, report: &FitReport, class: usi
     });
     let round = |value: f64| Value::Float((value * 1e6).round() / 1e6);
     let draws = draws(observed, study, class);
-    let of = numbers(observed, 0.0, &vec![0.0; study.weights.len()]);
+    let mut of = numbers(observed, 0.0, &vec![0.0; study.weights.len()]);
+    of.extend(following_numbers(observed, &[0.0; 4]));
     let draw = |it: &Vec<(Parameter, f64)>| Value::Array(it.iter().map(|it| round(it.1)).collect());
     let strings = |names: &mut dyn Iterator<Item = &str>| {
         Value::Array(names.map(|it| Value::String(it.to_owned())).collect())
@@ -203,7 +233,9 @@ fn intervals(study: &Study, report: &FitReport, draws: &[Vec<(Parameter, f64)>])
         let offset = |name: &str| if name == "theta" { study.mean_place } else { 0.0 };
         let shifted = |it: &WeightReport| pair(it.interval.map(|end| end - offset(it.name)));
         let all = report.weights.iter().chain([&report.theta]);
-        return all.map(|it| (it.name.to_owned(), shifted(it))).collect();
+        let following =
+            report.following.numbers.iter().map(|it| (it.name.key().to_owned(), pair(it.interval)));
+        return all.map(|it| (it.name.to_owned(), shifted(it))).chain(following).collect();
     }
     let Some(first) = draws.first() else { return Table::new() };
     let of = |at: usize| {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::following::FollowingReport;
 use super::found::by_paper_terms;
 use super::prediction::HeldOut;
 use super::report::{ByPaper, Correction, FitReport, Spread, WeightReport};
@@ -45,6 +46,7 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
         }
     }
     report.by_paper.iter().try_for_each(|it| write_by_paper(it, out))?;
+    write_following(&report.following, out)?;
     writeln!(out, "\nPredicting drivers who were not seen [nats per lane change, 95 % interval]")?;
     writeln!(out, "  model       better than a constant chance       mcdm better than it by")?;
     report.held_out.iter().try_for_each(|it| write_held_out(it, out))?;
@@ -102,6 +104,31 @@ fn write_by_paper(it: &ByPaper, out: &mut String) -> std::fmt::Result {
         "By the paper's procedure, {} ({} vehicles, {} changed): {found}",
         it.group, it.vehicles, it.changed
     )
+}
+
+fn write_following(it: &FollowingReport, out: &mut String) -> std::fmt::Result {
+    if let Some(why) = it.not_fitted {
+        return writeln!(out, "\nFollowing is the prior style's: {why}.");
+    }
+    writeln!(out, "\nFollowing: {} drivers in {:.0} s", it.drivers, it.seconds)?;
+    writeln!(out, "  number                estimate   95 % interval          prior")?;
+    for it in &it.numbers {
+        let [lower, upper] = it.interval;
+        let interval = format!("{lower:.2} to {upper:.2}");
+        let open = if it.is_identified { "" } else { "   not identified: the prior's" };
+        let name = it.name.key();
+        writeln!(out, "  {name:20} {:>9.2}   {interval:<20} {:>7.2}{open}", it.estimate, it.prior)?;
+    }
+    writeln!(out, "{}", it.own())?;
+    writeln!(out, "\nPredicting where drivers follow who were not seen [m off in the mean]")?;
+    writeln!(out, "  after     fitted     prior   constant speed   better than a constant speed by")?;
+    for it in &it.predictions {
+        let [fitted, prior, constant] = [it.fitted, it.prior, it.constant_speed].map(|it| it.distance_m);
+        let over = with_interval(it.over_constant_m, it.over_constant_interval);
+        let (after, is) = (it.after_s, it.fitted_is);
+        writeln!(out, "  {after:.1} s {fitted:>10.2} {prior:>9.2} {constant:>16.2}   {over}: {is}")?;
+    }
+    Ok(())
 }
 
 fn write_held_out(it: &HeldOut, out: &mut String) -> std::fmt::Result {

@@ -4,6 +4,7 @@ mod branch;
 mod commands;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;
+mod following;
 #[cfg(feature = "reports")]
 mod mutations;
 mod quick;

@@ -92,8 +92,7 @@ impl Observed {
 
     /// The same with other recordings.
     fn of(&self, sources: Sources) -> Result<Observed, Fault> {
-        let observations = sources.observations(&self.prior.typical, self.request.begin())?;
-        Ok(Observed { request: self.request.clone(), sources, observations, prior: self.prior.clone() })
+        self.request.observed(sources, self.request.prior_style()?)
     }
 
     /// The stages of pieces, and where they are measured.

@@ -5,4 +5,4 @@ mod collisions;
 mod desired;
 mod future;
 mod scores;
-mod set_up;
+pub(crate) mod set_up;
