@@ -13,6 +13,7 @@ mod exponential;
 pub mod follow;
 mod guidance;
 pub mod lateral;
+mod misperception;
 mod parameter;
 mod style;
 pub mod yielding;
@@ -20,6 +21,7 @@ pub mod yielding;
 pub use attention::{Alertness, Attention, Concentration};
 pub use exponential::exp;
 pub use guidance::Guidance;
+pub use misperception::Misperception;
 pub use parameter::{Parameter, Range};
 pub use style::{Manner, Style};
 

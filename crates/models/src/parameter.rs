@@ -169,6 +169,7 @@ with_incentives! { parameters! {
     other {
         SpeedFactor "speed_factor" range(0.1, 3.0, ""), speed_factor;
         MinGap "safety.min_gap" range(0.1, 50.0, "m"), safety.min_gap;
+        MinLagGap "safety.min_lag_gap" range(0.0, 50.0, "m"), safety.min_lag_gap;
         ClosingGrowth "safety.closing_growth" range(0.0, 1.0, "s/m"), safety.closing_growth;
         MinTimeToCollision "safety.min_time_to_collision" range(0.0, 60.0, "s"), safety.min_time_to_collision;
         MaxDeceleration "safety.max_deceleration" range(0.1, 8.0, "m/s²"), safety.max_deceleration;
@@ -189,6 +190,7 @@ with_incentives! { parameters! {
         LateralAcceleration "manner.lateral_acceleration" range(0.0, 10.0, "m/s²"), manner.lateral_acceleration;
         Tightest "manner.tightest" range(0.05, 1.0, ""), manner.tightest;
         Relaxation "manner.relaxation" range(0.1, 3600.0, "s"), manner.relaxation;
+        Misperception "manner.misperception" range(0.0, 10.0, ""), manner.misperception;
         CriticalGap "yielding.critical_gap" range(0.0, 60.0, "s"), yielding.critical_gap;
         YieldingPatience "yielding.patience" range(0.1, 3600.0, "s"), yielding.patience;
         RouteError "guidance.route_error" range(0.0, 2.0, ""), guidance.route_error;

@@ -76,6 +76,8 @@ pub struct Manner {
     pub tightest: f64,
     /// τ: time in which an accepted short gap relaxes to the usual one [s].
     pub relaxation: f64,
+    /// Size of the driver's errors in what it sees of a gap, see [`crate::Misperception`]; 0: none, 1: the usual.
+    pub misperception: f64,
 }
 
 impl Default for Manner {
@@ -93,6 +95,7 @@ impl Default for Manner {
             lateral_acceleration: 0.0,
             tightest: 0.56 / 1.2,
             relaxation: 25.0,
+            misperception: 0.0,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a driver sees of one side at one time, as the numbers that models of lane changes use.
 
 use laneweave_models::change::{
-    Driver, INCENTIVES, Incentive, IncentiveName, Lmrs, Mcdm, Mobil, Situation, Traffic,
+    Driver, INCENTIVES, Incentive, IncentiveName, Lmrs, Mcdm, Mobil, Safety, Situation, Traffic,
 };
 
 use laneweave_models::Style;
@@ -107,7 +107,8 @@ fn has_safe_gap(situation: &Situation, style: &Style) -> bool {
         let leader = Ahead { gap: it.gap, speed: me.pace.speed, acceleration: me.acceleration };
         Pairing { follower: it.driver, leader }
     });
-    [ahead, behind].into_iter().flatten().all(|it| it.accepted(&style.safety, STEP).is_ok())
+    let suits = |it: Option<Pairing>, safety: &Safety| it.is_none_or(|it| it.accepted(safety, STEP).is_ok());
+    suits(ahead, &style.safety) && suits(behind, &style.safety.of_follower())
 }
 
 impl ByDesired {

@@ -129,11 +129,13 @@ fn reappraised(account: &Account, side: &SideAccount, change: impl Fn(&mut Situa
 
 fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
     let with_speed = |it: Pairing<'_>, by: f64| -> f64 { it.follower.pace.speed + by };
-    let accepts = |it: &Pairing| it.accepted(&account.style.safety, dt).is_ok();
+    let safety = [account.style.safety, account.style.safety.of_follower()];
+    let suits =
+        |which: usize, it: Option<Pairing>| it.is_none_or(|it| it.accepted(&safety[which], dt).is_ok());
     let goes = |change: &dyn Fn(&mut [Option<Pairing>; 2])| {
         let mut pairings = account.pairings;
         change(&mut pairings);
-        pairings.iter().flatten().all(accepts).then_some(side)
+        (suits(0, pairings[0]) && suits(1, pairings[1])).then_some(side)
     };
     let paced = |pairing: Pairing<'_>, speed: f64| Pace { speed, ..pairing.follower.pace };
     let [ahead, behind] = account.pairings;
@@ -163,19 +165,18 @@ fn of_gap(account: &Account, side: Side, dt: f64) -> Vec<Flip> {
         };
         let faster_behind =
             |by: f64| behind.map(|it| Pairing { leader: Ahead { speed: own + by, ..it.leader }, ..it });
-        let suits = |it: Option<Pairing>| it.is_none_or(|it| accepts(&it));
         let goes = |by: f64| {
-            (suits(slower_ahead(by)) && suits(faster_behind(by)) && own + by <= account.fastest)
+            (suits(0, slower_ahead(by)) && suits(1, faster_behind(by)) && own + by <= account.fastest)
                 .then_some(side)
         };
         // A lower speed is better for the gap ahead, a higher speed for the gap behind. If one of the gaps is
         // refused, only its own limit can be the flip, and the other gap has to be accepted there.
         let found = match account.act {
             Act::Waits(_, Hindrance::Ahead(..)) => {
-                flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(slower_ahead(by)).then_some(side))
+                flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(0, slower_ahead(by)).then_some(side))
             }
             Act::Waits(..) => {
-                flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(faster_behind(by)).then_some(side))
+                flip(Knob::OwnSpeed, own, [-own, FAR], |by| suits(1, faster_behind(by)).then_some(side))
             }
             _ => flip(Knob::OwnSpeed, own, [-own, FAR], goes),
         };

@@ -241,13 +241,16 @@ pub fn story(account: &Account, network: &Network, position: (f64, f64), flips: 
     if is_drawn && account.sides.iter().flatten().next().is_some() {
         say(format!("  random number {:.4}", account.draw));
     }
-    for (who, pairing) in ["ahead", "behind"].into_iter().zip(account.pairings) {
+    let pairings = account.pairings.into_iter().zip(account.gaps);
+    for (who, (pairing, gap)) in ["ahead", "behind"].into_iter().zip(pairings) {
         if let Some(it) = pairing {
             let (follower, leader) = (it.follower.pace.speed, it.leader.speed);
             let ttc = time_to_collision(it.leader.gap, follower, leader);
             let closes = if ttc.is_finite() { format!(", closes in {ttc:.1} s") } else { String::new() };
+            let truth = gap.filter(|gap| *gap != it.leader.gap);
+            let truth = truth.map_or(String::new(), |gap| format!(", in truth {gap:.1} m"));
             say(format!(
-                "  gap {who}  {:.1} m{closes} ({:.1} km/h behind {:.1} km/h)",
+                "  gap {who}  {:.1} m{closes} ({:.1} km/h behind {:.1} km/h){truth}",
                 it.leader.gap,
                 follower * KMH_PER_MPS,
                 leader * KMH_PER_MPS

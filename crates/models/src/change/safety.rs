@@ -7,8 +7,9 @@
 //! the sense of [`crate::braking`]. The time to collision alone, the paper's condition, is not enough: FVDM drivers
 //! collide from gaps that it accepts.
 //!
-//! A critical gap per driver that depends on the speed difference (Toledo 2003) is a lognormal `min_gap` together
-//! with `closing_growth`: G_cr = exp(μ + κ Δv + σz).
+//! The critical gap to the new leader is `min_gap`, that to the new follower `min_lag_gap`. A critical gap per driver
+//! that depends on the speed difference (Toledo 2003) is a lognormal one together with `closing_growth`:
+//! G_cr = exp(μ + κ Δv + σz).
 
 use serde::{Deserialize, Serialize};
 
@@ -20,9 +21,11 @@ use crate::follow::Ahead;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Safety {
-    /// s_min [m].
+    /// s_min, the critical lead gap [m]: the shortest gap to the new leader.
     pub min_gap: f64,
-    /// κ: growth of s_min with the closing speed [s/m]; 0: none.
+    /// The critical lag gap [m]: the shortest gap to the new follower; 0: as `min_gap`.
+    pub min_lag_gap: f64,
+    /// κ: growth of both critical gaps with the closing speed [s/m]; 0: none.
     pub closing_growth: f64,
     /// T_th [s]; not in the paper.
     pub min_time_to_collision: f64,
@@ -32,7 +35,13 @@ pub struct Safety {
 
 impl Default for Safety {
     fn default() -> Safety {
-        Safety { min_gap: 2.0, closing_growth: 0.0, min_time_to_collision: 3.0, max_deceleration: 4.0 }
+        Safety {
+            min_gap: 2.0,
+            min_lag_gap: 0.0,
+            closing_growth: 0.0,
+            min_time_to_collision: 3.0,
+            max_deceleration: 4.0,
+        }
     }
 }
 
@@ -81,7 +90,14 @@ fn closing_speed(follower: f64, leader: f64) -> f64 {
 }
 
 impl Safety {
-    /// Checks whether `pair` is acceptable, with time step `dt` [s].
+    /// What is accepted of the new follower: the critical lag gap is in the place of the critical lead gap.
+    #[inline]
+    pub fn of_follower(&self) -> Safety {
+        Safety { min_gap: if self.min_lag_gap > 0.0 { self.min_lag_gap } else { self.min_gap }, ..*self }
+    }
+
+    /// Checks whether `pair` is acceptable, with time step `dt` [s]. The limits for a pair of the new follower are
+    /// those of [`Safety::of_follower`].
     ///
     /// # Errors
     /// The first condition that it does not meet.

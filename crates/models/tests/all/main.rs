@@ -8,6 +8,7 @@ mod incentives;
 mod lateral;
 mod link_time;
 mod lmrs;
+mod misperception;
 mod mobil;
 mod near;
 mod returning;

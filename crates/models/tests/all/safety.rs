@@ -113,6 +113,19 @@ fn a_critical_gap_grows_with_the_closing_speed() {
 }
 
 #[test]
+fn the_critical_lag_gap_is_in_the_place_of_the_lead_gap_for_the_follower_alone() {
+    let safety = Safety { min_gap: 3.0, min_lag_gap: 5.0, ..Safety::default() };
+    assert_eq!(safety.accept(pair(3.0, 10.0, 10.0), DT), Ok(()));
+    assert_eq!(safety.of_follower().accept(pair(4.999, 10.0, 10.0), DT), Err(Refusal::Short));
+    assert_eq!(safety.of_follower().accept(pair(5.0, 10.0, 10.0), DT), Ok(()));
+    // It may be the shorter one. Without one both are the same.
+    let bold = Safety { min_lag_gap: 2.5, ..safety };
+    assert_eq!(bold.of_follower().accept(pair(2.5, 10.0, 10.0), DT), Ok(()));
+    let same = Safety { min_lag_gap: 0.0, ..safety };
+    assert_eq!(same.of_follower(), same);
+}
+
+#[test]
 fn what_is_not_a_number_is_not_accepted() {
     let good = pair(50.0, 10.0, 10.0);
     assert_eq!(verdict(good), Ok(()));

@@ -50,8 +50,11 @@ pub struct Account<'a> {
     pub act: Act,
     /// The leader in the overtaking lane that it would pass, but may not by the law of the map.
     pub stays_behind: Option<Ahead>,
-    /// The pairings in the gap that it waits for, if it waits: with its new leader, and with its new follower.
+    /// The pairings in the gap that it waits for, if it waits, as it sees them: with its new leader, and with its new
+    /// follower.
     pub pairings: [Option<Pairing<'a>>; 2],
+    /// The true gaps of these pairings [m].
+    pub gaps: [Option<f64>; 2],
     /// The highest own speed at which the road is long enough for that change [m/s].
     pub fastest: f64,
 }
@@ -149,7 +152,8 @@ pub fn explain(world: &World, spot: Spot) -> Account<'_> {
         draw: moment.random.uniform(motion.id, Purpose::Desire, clock.step),
         act: act(&scene, moment, spot),
         stays_behind: stays_behind(&scene, spot),
-        pairings: found.map_or([None; 2], |it| it.pairings(&scene, spot)),
+        pairings: found.map_or([None; 2], |it| it.seen(&scene, spot, clock.time())),
+        gaps: found.map_or([None; 2], |it| it.pairings(&scene, spot).map(|it| it.map(|it| it.leader.gap))),
         fastest: found.map_or(f64::INFINITY, |it| it.fastest(&scene, spot)),
     }
 }

@@ -8,6 +8,7 @@ use laneweave_network::ChainIndex;
 use crate::driver::lane_end::{self, LaneEnd, is_leaving};
 use crate::driver::last_place::{HARDLY_MOVES, before_the_last_place, kept_room, within_window};
 use crate::driver::merge;
+use crate::driver::misperception::misperception;
 use crate::driver::stopping::{stopping_way, to_stop_at};
 use crate::driver::window::leader_beside;
 use crate::record::events::BrakingCause;
@@ -15,6 +16,7 @@ use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::{FirstIntoMerge, Junction};
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeKind, Phase};
+use crate::state::random::Purpose;
 use crate::state::standstill::{ROOM_AT_A_STOP, STANDS};
 use crate::view::scene::{Scene, Spot};
 
@@ -43,11 +45,12 @@ pub(crate) struct OpenRoad {
 }
 
 impl OpenRoad {
-    /// The open road of `chain`. A lane that ends, at `lane_end`, or that is closed ahead, has none.
+    /// The open road of `chain`. A lane that ends, at `lane_end`, or that is closed ahead, has none. Nor has any lane
+    /// where some drivers have errors in what they see: they need a closer look.
     #[inline]
     pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<LaneEnd>) -> OpenRoad {
         let [first_place, last_place] = scene.network.junctions.places(chain);
-        let ends = lane_end.is_some() || scene.navigator.closures().are_near(chain);
+        let ends = lane_end.is_some() || scene.navigator.closures().are_near(chain) || scene.errors.is_some();
         let fork_clearance = if ends { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
         OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
     }
@@ -150,7 +153,11 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
 fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let slows = driver.desired > driver.limit_desired && scene.style_of(driver).manner.looks_ahead();
-    let leader = scene.ahead(scene.viewpoint(spot));
+    let true_leader = scene.ahead(scene.viewpoint(spot));
+    let leader = match misperception(scene, spot, Purpose::MisperceptionAhead, clock.time()) {
+        Some(errors) => true_leader.map(|it| errors.of_leader(it)),
+        None => true_leader,
+    };
     let acceleration = match leader {
         Some(leader) => behind_one(scene, motion, driver, leader),
         None => scene.style_of(driver).follow.acceleration(pace(motion, driver), None),
@@ -180,7 +187,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         acceleration,
         cause: if by_kinematics { BrakingCause::Kinematics } else { cause },
         by_kinematics,
-        touches: leader.is_some_and(|it| it.gap < 0.0),
+        touches: true_leader.is_some_and(|it| it.gap < 0.0),
         junction,
     }
 }

@@ -1,10 +1,12 @@
 //! The gap in the lane beside: whether a driver accepts it, and which driver could make it larger.
 
+use laneweave_models::Misperception;
 use laneweave_models::change::{Driver, GapPair, Refusal, Safety, deceleration_to_avoid, time_to_collision};
 use laneweave_models::follow::{Ahead, Pace};
 use laneweave_network::{ChainIndex, Side};
 
 use crate::driver::lane_end::lane_end;
+use crate::driver::misperception::misperception;
 use crate::driver::perceive::driver_of;
 use crate::driver::stopping::stopping_way;
 use crate::driver::window;
@@ -14,6 +16,7 @@ use crate::right_of_way::may_pass::Asking;
 use crate::right_of_way::survey::is_place_ahead;
 use crate::state::clock::Clock;
 use crate::state::lane::{LaneChangeKind, LaneChangeState, Phase};
+use crate::state::random::Purpose;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 
@@ -117,7 +120,15 @@ pub struct Pairing<'a> {
     pub leader: Ahead,
 }
 
-impl Pairing<'_> {
+impl<'a> Pairing<'a> {
+    /// The pairing as its leader, with these errors, sees it.
+    fn seen_by_leader(self, errors: Misperception) -> Pairing<'a> {
+        let Pairing { follower, leader } = self;
+        let (gap, speed) = errors.of_follower(leader.gap, follower.pace.speed);
+        let follower = Driver { pace: Pace { speed, ..follower.pace }, ..follower };
+        Pairing { follower, leader: Ahead { gap, ..leader } }
+    }
+
     /// Checks whether `safety` accepts the pairing, with time step `dt` [s].
     ///
     /// # Errors
@@ -136,16 +147,34 @@ impl Gap {
     ///
     /// # Errors
     /// The reason why the gap is not accepted.
-    pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, dt: f64) -> Result<(), Hindrance> {
+    pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, clock: Clock) -> Result<(), Hindrance> {
         self.urgency_on_road(scene, spot, scene.motion(spot).speed)?;
-        let style = scene.style(spot);
-        let [ahead, behind] = self.pairings(scene, spot);
+        let safety = &scene.style(spot).safety;
+        let [ahead, behind] = self.seen(scene, spot, clock.time());
         ahead
-            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
+            .map_or(Ok(()), |it| it.accepted(safety, clock.dt))
             .map_err(|(why, pair)| Hindrance::Ahead(why, pair))?;
         behind
-            .map_or(Ok(()), |it| it.accepted(&style.safety, dt))
+            .map_or(Ok(()), |it| it.accepted(&safety.of_follower(), clock.dt))
             .map_err(|(why, pair)| Hindrance::Behind(why, pair))
+    }
+
+    /// The pairings as the driver at `spot` sees them at `time` [s]. Of a pair it sees the other vehicle with errors.
+    pub(crate) fn seen<'a>(&self, scene: &Scene<'a>, spot: Spot, time: f64) -> [Option<Pairing<'a>>; 2] {
+        let [ahead, behind] = self.pairings(scene, spot);
+        if scene.errors.is_none() {
+            return [ahead, behind];
+        }
+        let errors = |of| misperception(scene, spot, of, time);
+        let ahead = match errors(Purpose::MisperceptionAhead) {
+            Some(errors) => ahead.map(|it| Pairing { leader: errors.of_leader(it.leader), ..it }),
+            None => ahead,
+        };
+        let behind = match errors(Purpose::MisperceptionBehind) {
+            Some(errors) => behind.map(|it| it.seen_by_leader(errors)),
+            None => behind,
+        };
+        [ahead, behind]
     }
 
     /// The urgency with which the driver at `spot` changes lanes at that `speed` [m/s]: its own, or, if the road is too
@@ -234,7 +263,7 @@ impl Gap {
         if self.is_requested_before(scene, spot, clock) {
             return Err(Hindrance::RequestedBefore);
         }
-        self.accepted(scene, spot, clock.dt)?;
+        self.accepted(scene, spot, clock)?;
         if self.is_coming { Err(Hindrance::NotAllowed) } else { Ok(()) }
     }
 
@@ -251,7 +280,7 @@ impl Gap {
         /// This many followers see the signal.
         const SEE_IT: usize = 10;
         let motion = scene.motion(spot);
-        let room = scene.style(spot).safety.min_gap + ROOM_TO_YIELD;
+        let room = scene.style(spot).safety.of_follower().min_gap + ROOM_TO_YIELD;
         let can = |it: &Found| {
             let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
             let gentle = scene.style_of(driver).manner.yield_deceleration;

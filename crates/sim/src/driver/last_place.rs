@@ -59,7 +59,7 @@ pub(super) fn before_the_last_place(scene: &Scene, clock: Clock, spot: Spot) -> 
     let manner = &scene.style_of(driver).manner;
     let window = Window::of(scene, spot);
     if let Some(window) = window.filter(|it| driver.phase == Phase::Wants && it.is_near_and_short())
-        && gap(scene, spot, lane_change.side).is_some_and(|it| it.accepted(scene, spot, clock.dt).is_ok())
+        && gap(scene, spot, lane_change.side).is_some_and(|it| it.accepted(scene, spot, clock).is_ok())
     {
         let passing = window.speed_for(manner.duration(f64::from(lane_change.urgency)));
         return approach(motion.speed, window.start.max(0.0), passing);

@@ -2,7 +2,8 @@
 //!
 //! * `perceive.rs` turns an instant into the plain data of the models; `attention.rs` whether a driver is concentrated
 //! * `turn.rs`, `consider.rs`, `choice.rs` and `decide.rs` lane changes; `gap.rs` the gap beside, and why it is not
-//!   accepted; `window.rs` and `last_place.rs` short stretches on which lanes may be changed
+//!   accepted; `misperception.rs` the errors with which a driver sees others; `window.rs` and `last_place.rs` short
+//!   stretches on which lanes may be changed
 //! * `drive.rs`, `accelerate.rs`, `two_lanes.rs`, `merge.rs`, `stopping.rs` and `lane_end.rs` the next motion
 //! * `request_reservation.rs` junctions; `stuck.rs` who stands for nothing
 //! * `beliefs.rs` and `leave.rs` how drivers take guidance
@@ -22,6 +23,7 @@ pub(crate) mod last_place;
 pub(crate) mod leave;
 pub(crate) mod me;
 pub(crate) mod merge;
+pub(crate) mod misperception;
 pub(crate) mod obey;
 pub(crate) mod perceive;
 pub(crate) mod plan;

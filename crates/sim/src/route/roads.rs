@@ -106,6 +106,12 @@ impl Roads {
         self.random
     }
 
+    /// The random numbers of drivers' errors in what they see; `None` if all drivers see everything as it is.
+    #[inline]
+    pub(crate) fn errors(&self) -> Option<Random> {
+        self.driver_parameters.misperceive().then_some(self.random)
+    }
+
     /// Guides drivers to `destinations` from now on, with a measurement every `period` steps.
     ///
     /// # Errors

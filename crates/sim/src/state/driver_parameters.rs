@@ -17,13 +17,21 @@ pub(crate) struct DriverParameters {
     sets: Vec<Style>,
     /// The number of the style of each set: styles are numbered as they first occur.
     styles: Vec<u32>,
+    /// Whether some drivers have errors in what they see.
+    misperceive: bool,
 }
 
 impl DriverParameters {
     /// Sets that no user has changed.
     pub(crate) fn new(given: Vec<Style>) -> DriverParameters {
-        let styles = style_numbers(&given);
-        DriverParameters { sets: given.clone(), changes: ParameterChanges::new(), styles, given }
+        let (styles, misperceive) = (style_numbers(&given), misperceive(&given));
+        DriverParameters { sets: given.clone(), changes: ParameterChanges::new(), styles, misperceive, given }
+    }
+
+    /// Whether some drivers have errors in what they see.
+    #[inline]
+    pub(crate) fn misperceive(&self) -> bool {
+        self.misperceive
     }
 
     /// The number of the style of each set: styles are numbered as they first occur.
@@ -63,7 +71,10 @@ impl DriverParameters {
         let is_changed = |set: &&Style| changes.keys().any(|(name, _)| set.name == *name);
         match sets.iter().filter(is_changed).find_map(|it| it.change.flaw()) {
             Some(Flaw { what, remedy, .. }) => Err(format!("{what}; {remedy}")),
-            None => Ok(DriverParameters { given, changes, sets, styles: self.styles.clone() }),
+            None => {
+                let misperceive = misperceive(&sets);
+                Ok(DriverParameters { given, changes, sets, styles: self.styles.clone(), misperceive })
+            }
         }
     }
 
@@ -82,7 +93,12 @@ impl DriverParameters {
             }
         }
         self.changes.insert((style.into(), parameter), value);
+        self.misperceive = misperceive(&self.sets);
     }
+}
+
+fn misperceive(sets: &[Style]) -> bool {
+    sets.iter().any(|it| it.manner.misperception > 0.0)
 }
 
 /// The number of the style of each set.

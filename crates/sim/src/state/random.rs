@@ -38,6 +38,10 @@ pub enum Purpose {
     Reaction,
     /// Which observations are drawn again, or left out.
     Resampling,
+    /// A driver's errors in what it sees of a vehicle ahead.
+    MisperceptionAhead,
+    /// A driver's errors in what it sees of a vehicle behind.
+    MisperceptionBehind,
 }
 
 /// The source of all random numbers of a run.
@@ -55,16 +59,29 @@ impl Random {
     /// A uniform number in the open interval (0, 1): number `count` of `subject` for `purpose`.
     #[inline]
     pub fn uniform(&self, subject: u32, purpose: Purpose, count: u32) -> f64 {
-        const STEP: f64 = 1.0 / (1u64 << 53) as f64;
         let [low, high, ..] = self.draw(subject, purpose, count);
-        let bits = (u64::from(high) << 32 | u64::from(low)) >> 11;
-        (bits as f64 + 0.5) * STEP
+        in_unit_interval(low, high)
+    }
+
+    /// Two such numbers, independent of each other; the first one is [`Random::uniform`].
+    #[inline]
+    pub(crate) fn uniform_pair(&self, subject: u32, purpose: Purpose, count: u32) -> [f64; 2] {
+        let [low, high, other_low, other_high] = self.draw(subject, purpose, count);
+        [in_unit_interval(low, high), in_unit_interval(other_low, other_high)]
     }
 
     #[inline]
     fn draw(&self, subject: u32, purpose: Purpose, count: u32) -> [u32; 4] {
         philox([subject, purpose as u32, count, 0], [self.seed as u32, (self.seed >> 32) as u32])
     }
+}
+
+/// The 53 highest of 64 random bits as a number in the open interval (0, 1).
+#[inline]
+fn in_unit_interval(low: u32, high: u32) -> f64 {
+    const STEP: f64 = 1.0 / (1u64 << 53) as f64;
+    let bits = (u64::from(high) << 32 | u64::from(low)) >> 11;
+    (bits as f64 + 0.5) * STEP
 }
 
 const ROUNDS: u32 = 10;

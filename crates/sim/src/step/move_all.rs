@@ -30,14 +30,23 @@ pub(crate) fn move_all(
         (roads.network(), roads.navigator(), roads.driver_parameters());
     let (reservations, signals) = (junctions.reservations(), junctions.signals());
     let moment = Moment { clock, random: roads.random(), overtaking: network.driving_side.overtaking() };
+    let errors = roads.errors();
     pool.look_then_act(
         outboxes,
         lanes,
         plans,
         chosen,
         |lanes, outbox, index, plan| {
-            let scene =
-                Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals };
+            let scene = Scene {
+                network,
+                navigator,
+                lanes,
+                driver_parameters,
+                reservations,
+                signals,
+                externals,
+                errors,
+            };
             let chain = ChainIndex(index as u32);
             plan.clear();
             let before = Before::of(outbox);

@@ -135,7 +135,7 @@ impl Resolving<'_> {
             return;
         }
         let Some(gap) = gap(&scene, spot, lane_change.side) else { return };
-        if gap.is_coming || gap.accepted(&scene, spot, self.traffic.clock().dt).is_err() {
+        if gap.is_coming || gap.accepted(&scene, spot, self.traffic.clock()).is_err() {
             return;
         }
         let speed = scene.motion(spot).speed;

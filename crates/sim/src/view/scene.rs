@@ -15,6 +15,7 @@ use crate::route::walk::{Leg, Walk};
 use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Kinematics, Lane, LaneChangeState, VehicleId};
+use crate::state::random::Random;
 use crate::state::traffic::Traffic;
 
 /// One instant of traffic on a network.
@@ -34,6 +35,8 @@ pub struct Scene<'a> {
     pub signals: &'a Signals,
     /// The vehicles that users drive.
     pub(crate) externals: &'a Externals,
+    /// The random numbers of drivers' errors in what they see; `None` if all drivers see everything as it is.
+    pub(crate) errors: Option<Random>,
 }
 
 /// An entry in a lane.
@@ -86,6 +89,7 @@ impl<'a> Scene<'a> {
             reservations: junctions.reservations(),
             signals: junctions.signals(),
             externals: traffic.externals(),
+            errors: roads.errors(),
         }
     }
 

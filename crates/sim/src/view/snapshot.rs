@@ -99,7 +99,9 @@ impl Snapshot {
         driver_parameters: &'a [Style],
     ) -> Scene<'a> {
         let Snapshot { lanes, reservations, signals, externals, .. } = self;
-        Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals }
+        // A recorded instant has no seed: it is seen as it is.
+        let errors = None;
+        Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals, errors }
     }
 
     /// Gives the driver of the vehicle whose main entry is at `spot` another desired speed [m/s].
