@@ -2,11 +2,12 @@
 //!
 //! A file becomes a [`Recording`] ([`open`], [`table::read`], [`commonroad::read`]). [`clean()`] corrects impossible
 //! data. [`Matched`] gives the lanelet of each vehicle, and the vehicles in a frame. [`lane_changes`] finds the lane
-//! changes, [`extents`] their begin and end. Nothing here knows the simulator.
+//! changes, [`extents`] their begin and end, [`cut_ins`] who was near behind. Nothing here knows the simulator.
 
 mod changes;
 mod clean;
 pub mod commonroad;
+mod cut_ins;
 pub mod datasets;
 mod error;
 mod file;
@@ -27,6 +28,7 @@ pub mod table;
 
 pub use changes::{LaneChange, RecordedChangeKind, lane_changes};
 pub use clean::{CleaningReport, Example, Finding, clean};
+pub use cut_ins::{CutIn, cut_ins};
 pub use error::RecordingError;
 pub use file::open;
 pub use join::{JoinError, Joined, join};

@@ -4,6 +4,7 @@
 pub mod branch;
 pub mod check;
 pub mod compare;
+pub mod cut_ins;
 mod draws;
 pub mod experiments;
 pub mod fit;

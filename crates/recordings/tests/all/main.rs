@@ -3,6 +3,7 @@
 mod alongside;
 mod cleaning;
 mod commonroad;
+mod cut_ins;
 mod datasets;
 mod drawn_twice;
 mod interaction;

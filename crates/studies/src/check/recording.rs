@@ -9,13 +9,15 @@ use std::path::Path;
 use laneweave_maps::Problem;
 use laneweave_network::Network;
 use laneweave_recordings::{
-    CleaningReport, LaneChange, Matched, Recording, RecordingError, clean, commonroad, lane_changes,
+    CleaningReport, CutIn, LaneChange, Matched, Recording, RecordingError, clean, commonroad, cut_ins,
+    lane_changes,
 };
 use laneweave_scenario::{Fault, elsewhere, unreadable};
 use laneweave_study::units::METRES_PER_KM;
 use serde::Serialize;
 
 use super::evidence::EvidenceReport;
+use crate::cut_ins::{CutInsAt, cut_ins_by_speed, write_cut_ins};
 
 /// Maximum of lane changes in the text.
 const LISTED: usize = 20;
@@ -46,6 +48,11 @@ pub struct RecordingReport {
     /// What it tells of its drivers.
     #[serde(flatten)]
     pub evidence: EvidenceReport,
+    /// The cut-ins.
+    #[serde(skip)]
+    pub(super) cut_ins: Vec<CutIn>,
+    /// The same by the speed of the follower.
+    pub cut_ins_by_speed: Vec<CutInsAt>,
     /// Lane changes in the order of their times.
     pub lane_changes: Vec<ChangeRow>,
     /// Problems in reading it.
@@ -117,6 +124,7 @@ impl RecordingReport {
         let matched = Matched::new(network, &recording);
         let mut changes = lane_changes(&matched);
         let evidence = EvidenceReport::of(&matched, &changes);
+        let cut_ins = cut_ins(&matched, &changes);
         changes.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.vehicle.cmp(&b.vehicle)));
         let mut tracks: BTreeMap<&'static str, usize> = BTreeMap::new();
         let mut kinds: BTreeMap<&'static str, usize> = BTreeMap::new();
@@ -137,6 +145,8 @@ impl RecordingReport {
             lane_changes_along_graph: changes.iter().filter(|it| it.along_graph).count(),
             lane_changes_undone: changes.iter().filter(|it| it.returned_after.is_some()).count(),
             evidence,
+            cut_ins_by_speed: cut_ins_by_speed(&cut_ins),
+            cut_ins,
             lane_changes: changes.iter().map(|it| row(it, network)).collect(),
             problems: elsewhere.into_iter().chain(problems.iter().cloned()).collect(),
         }
@@ -179,6 +189,7 @@ impl RecordingReport {
             self.lane_changes_along_graph, self.lane_changes_undone
         )?;
         self.evidence.write_to(out)?;
+        write_cut_ins(&self.cut_ins_by_speed, out)?;
         writeln!(out, "\n   time [s]    vehicle       from         to  side   kind           speed [m/s]")?;
         for it in self.lane_changes.iter().take(LISTED) {
             writeln!(

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::evidence::EvidenceReport;
 use super::recording::RecordingReport;
+use crate::cut_ins::{CutInsAt, cut_ins_by_speed, write_cut_ins};
 
 /// The report on a set of recordings. Fields are added, never renamed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -24,6 +25,8 @@ pub struct SetReport {
     /// What they tell of their drivers, but for single lanelets.
     #[serde(flatten)]
     pub evidence: EvidenceReport,
+    /// Their cut-ins by the speed of the follower.
+    pub cut_ins_by_speed: Vec<CutInsAt>,
     /// Each of them, by the name of its file.
     pub recordings: Vec<Named>,
 }
@@ -54,6 +57,9 @@ impl SetReport {
             lane_changes_along_graph: reports().map(|it| it.lane_changes_along_graph).sum(),
             lane_changes_undone: reports().map(|it| it.lane_changes_undone).sum(),
             evidence: EvidenceReport::pooled(reports().map(|it| &it.evidence)),
+            cut_ins_by_speed: cut_ins_by_speed(
+                &reports().flat_map(|it| &it.cut_ins).copied().collect::<Vec<_>>(),
+            ),
             recordings,
         }
     }
@@ -91,6 +97,7 @@ impl SetReport {
             "{} of them permitted by the maps, {} reversed within 30 s",
             self.lane_changes_along_graph, self.lane_changes_undone
         )?;
-        self.evidence.write_to(out)
+        self.evidence.write_to(out)?;
+        write_cut_ins(&self.cut_ins_by_speed, out)
     }
 }
