@@ -35,8 +35,8 @@ pub struct Pace {
     pub speed: f64,
     /// v₀: desired speed [m/s].
     pub desired: f64,
-    /// Share of the usual time gap that the driver keeps at present: 1 when relaxed, less around a lane change, more while
-    /// a driver found far behind its leader closes in.
+    /// Share of the usual time gap that the driver keeps at present: 1 when relaxed, less around a lane change, more
+    /// while a driver found far behind its leader closes in.
     pub headway_relaxation: f64,
 }
 

@@ -76,8 +76,8 @@ impl Moving {
         }
     }
 
-    /// A recorded vehicle at this speed [m/s] that has moved like this: at its angle to the lane, along the curve of the
-    /// lane. In no lane it goes straight on.
+    /// A recorded vehicle at this speed [m/s] that has moved like this: at its angle to the lane, along the curve of
+    /// the lane. In no lane it goes straight on.
     pub(super) fn as_before(vehicle: &Vehicle, speed: f64, motion: Motion, world: &World) -> Moving {
         let straight = Movement { speed, acceleration: motion.acceleration, ..steady(vehicle) };
         let Some(Chord { way, direction }) = motion.chord else { return Moving::along(vehicle, straight) };

@@ -9,8 +9,8 @@ use laneweave_sim::{Class, Control, RecordedPose, RecordedVehicle};
 
 use super::course::Recorded;
 
-/// A recorded speed that differs by more [m/s] from that of the positions over this time [s] is replaced by it. A position
-/// alone may be wrong, such as the first in a view.
+/// A recorded speed that differs by more [m/s] from that of the positions over this time [s] is replaced by it. A
+/// position alone may be wrong, such as the first in a view.
 const TOLERATED: f64 = 5.0;
 const DRIVEN: f64 = 0.5;
 /// How a vehicle moves is taken over so much of its recorded past [s]. Before the least is known it is as if it went

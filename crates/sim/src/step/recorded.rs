@@ -116,8 +116,8 @@ impl World {
     }
 
     /// Where a driver could come onto the road in place of a recorded vehicle that is not there yet, so that neither it
-    /// nor its follower would have to brake harder than vehicles can: where the vehicle is, or at most `most_behind` [m]
-    /// behind that place in the middle of its lane. There is room for a vehicle in no lane.
+    /// nor its follower would have to brake harder than vehicles can: where the vehicle is, or at most `most_behind`
+    /// [m] behind that place in the middle of its lane. There is room for a vehicle in no lane.
     ///
     /// # Errors
     /// If there is no such place: the id of a vehicle that is in the way.
@@ -209,8 +209,9 @@ impl World {
 }
 
 /// The share of its usual headway with which a driver who is found at `speed` [m/s] behind a leader drives on as it
-/// does: neither faster nor slower (ours). It may be held at a shorter headway than it likes, as after a lane change, or
-/// not have closed a longer one yet; both relax in time. A driver with a time gap beyond which nobody follows is free.
+/// does: neither faster nor slower (ours). It may be held at a shorter headway than it likes, as after a lane change,
+/// or not have closed a longer one yet; both relax in time. A driver with a time gap beyond which nobody follows is
+/// free.
 fn accepted_headway(style: &Style, speed: f64, leader: Ahead) -> f64 {
     /// A driver who desires so much more than its speed keeps its usual gap [m/s].
     const HELD_UP: f64 = 10.0;

@@ -4,6 +4,7 @@
 //! compare them; `exposure.rs` tells how much of the replay is as recorded.
 
 mod collisions;
+mod departed;
 mod exposure;
 #[cfg(feature = "reports")]
 mod page;
@@ -30,13 +31,11 @@ use laneweave::run::{Results, Run};
 use trace::{Followed, Trace, Tracer};
 
 pub use collisions::Collisions;
+pub use departed::{Example, HandedOver, LateStart};
 #[cfg(feature = "reports")]
 pub use page::page;
 pub use parting::{PartedAfter, Parting};
-pub use report::{
-    CollisionMeans, Difference, Driver, Example, HandOvers, HandedOver, LateStart, Matched, Mean, Named,
-    ReplayReport, Score,
-};
+pub use report::{CollisionMeans, Difference, Driver, HandOvers, Matched, Mean, Named, ReplayReport, Score};
 
 /// Drivers decide at least so often [s].
 const STEP: f64 = 0.1;
