@@ -29,14 +29,14 @@ const KNOWN_LANES: [usize; 3] = [2, 3, 4];
 /// For limits [km/h] and these numbers of lanes, the vehicles that leave the road in the counted time, in the default
 /// mixture of styles and classes. A test simulates them, and says what they are if drivers have changed.
 const KNOWN: [(f64, [u64; 3]); 8] = [
-    (30.0, [451, 681, 918]),
-    (50.0, [560, 872, 1137]),
-    (60.0, [595, 939, 1226]),
-    (70.0, [636, 944, 1290]),
-    (80.0, [688, 998, 1365]),
-    (100.0, [691, 1084, 1431]),
-    (120.0, [704, 1043, 1441]),
-    (130.0, [725, 1071, 1396]),
+    (30.0, [442, 675, 909]),
+    (50.0, [563, 863, 1153]),
+    (60.0, [603, 933, 1245]),
+    (70.0, [651, 948, 1290]),
+    (80.0, [687, 997, 1355]),
+    (100.0, [690, 1067, 1422]),
+    (120.0, [693, 1066, 1400]),
+    (130.0, [725, 1059, 1442]),
 ];
 
 /// Flow over a road of so many `lanes` under `limit` [m/s] and the limit of `law` for long vehicles, of `drivers`, each
