@@ -4,7 +4,7 @@
 //! its curvature is measured, with the chains that continue it at both ends.
 
 use crate::chain::{Bend, Chain, ChainIndex};
-use crate::geometry::{Point, Polyline};
+use crate::geometry::{Point, Polyline, turn};
 
 /// Distance between the samples of a centre line [m].
 const STEP: f64 = 1.0;
@@ -155,8 +155,7 @@ fn straightest<'a>(
 
 /// The angle between the end of `one` and the beginning of `next` [rad].
 fn turn_between(one: &Chain, next: &Chain) -> f64 {
-    let turn = next.centre.heading(0.0) - one.centre.heading(one.length);
-    turn.sin().atan2(turn.cos()).abs()
+    turn(one.centre.heading(one.length), next.centre.heading(0.0)).abs()
 }
 
 /// Points of a chain of this `length` every [`STEP`], and `half_arc` further at both ends, each the mean of an arc of

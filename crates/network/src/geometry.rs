@@ -59,6 +59,13 @@ pub struct Pose {
     pub heading: f64,
 }
 
+/// The turn from one heading to another, between −π and π; NaN if their difference is not finite [rad].
+#[inline]
+pub fn turn(from: f64, to: f64) -> f64 {
+    let turn = to - from;
+    turn.sin().atan2(turn.cos())
+}
+
 /// A line of at least two distinct points, with the station (horizontal length from the start) of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {

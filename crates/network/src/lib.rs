@@ -27,7 +27,7 @@ pub use alongside::Alongside;
 pub use build::NetworkError;
 pub use chain::{Bend, Beside, Chain, ChainIndex, Limit, Position};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
-pub use geometry::{Point, Polyline, Pose};
+pub use geometry::{Point, Polyline, Pose, turn};
 pub use ground::{Footprint, Ground};
 pub use joints::onward;
 pub use junction::{

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::geometry::turn;
 use crate::lanelet::{Lanelet, LaneletIndex};
 use crate::network::Network;
 
@@ -124,6 +125,5 @@ fn angle(lanelets: &[Lanelet], ways_in: &[usize], from: LaneletIndex, to: Lanele
             _ => break it.centre.heading(left.min(it.length())),
         }
     };
-    let turn = after - before.heading(before.length());
-    turn.sin().atan2(turn.cos())
+    turn(before.heading(before.length()), after)
 }

@@ -3,7 +3,7 @@
 //! The most likely path through the lanelets around (Viterbi). A distance from the middle of a lane and an angle to
 //! it cost per second. A lane change costs a little. A move without a link costs much.
 
-use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Side};
+use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Side, turn};
 
 use crate::lanes::Lanes;
 use crate::moves::{Move, Moves};
@@ -166,8 +166,7 @@ impl Matcher<'_> {
         for (index, foot) in self.lanes.around(&point) {
             let lanelet = &self.lanelets[index.at()];
             let half_width = 0.5 * lanelet.width(foot.station);
-            let turn = state.heading - lanelet.centre.heading(foot.station);
-            let turn = turn.sin().atan2(turn.cos());
+            let turn = turn(lanelet.centre.heading(foot.station), state.heading);
             // This form also refuses NaN.
             let is_near = foot.offset.abs() <= half_width + MAXIMUM_OUTSIDE && foot.beyond <= MAXIMUM_BEYOND;
             if is_near && turn.abs() <= MAXIMUM_TURN {

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
+use laneweave_network::turn;
+
 use super::report::Noted;
 use crate::recording::State;
 use crate::smooth::{self, Motion};
@@ -40,8 +42,7 @@ fn contradicts(heading: f64, motion: &Motion) -> bool {
     if motion.speed() < MOVING {
         return false;
     }
-    let turn = heading - motion.heading();
-    let off = turn.sin().atan2(turn.cos()).abs();
+    let off = turn(motion.heading(), heading).abs();
     let backs_up = off > PI - HEADING_ERROR && motion.speed() < BACKING;
     off > HEADING_ERROR && !backs_up
 }

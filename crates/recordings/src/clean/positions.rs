@@ -1,5 +1,7 @@
 //! Positions: states off the path, jumps of the path, and gaps in it.
 
+use laneweave_network::turn;
+
 use super::report::Noted;
 use crate::recording::State;
 use crate::smooth::elapsed;
@@ -94,9 +96,8 @@ fn jumps(states: &[State], step: f64) -> Vec<bool> {
 fn between(a: &State, b: &State, frame: i64) -> State {
     let fraction = (frame - a.frame) as f64 / (b.frame - a.frame) as f64;
     let mix = |from: f64, to: f64| from + fraction * (to - from);
-    let turn = b.heading - a.heading;
     // Headings may be so large that their difference is NaN.
-    let turn = if turn.is_finite() { turn.sin().atan2(turn.cos()) } else { 0.0 };
+    let turn = Some(turn(a.heading, b.heading)).filter(|it| it.is_finite()).unwrap_or(0.0);
     State {
         frame,
         x: mix(a.x, b.x),

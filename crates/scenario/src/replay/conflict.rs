@@ -2,7 +2,7 @@
 
 use laneweave_models::change::Driver;
 use laneweave_models::follow::{Ahead, Pace};
-use laneweave_network::{Point, Pose, Rectangle};
+use laneweave_network::{Point, Pose, Rectangle, turn};
 use laneweave_sim::{Vehicle, VehicleId, World};
 
 use super::part::{Chord, Motion};
@@ -189,12 +189,6 @@ fn curvature(vehicle: &Vehicle, world: &World) -> f64 {
     let [behind, ahead] = [-CURVE, CURVE].map(|it| (vehicle.x() + it).clamp(0.0, chain.length));
     let [from, to] = [behind, ahead].map(|it| chain.centre.heading(it));
     turn(from, to) / (ahead - behind).max(CURVE)
-}
-
-/// The angle from one heading to another, between −π and π [rad].
-fn turn(from: f64, to: f64) -> f64 {
-    let angle = to - from;
-    angle.sin().atan2(angle.cos())
 }
 
 /// The leader of a vehicle in its lane, and its id.

@@ -78,10 +78,10 @@ impl Player {
     /// Hands over the recorded vehicles in whose way somebody is who is not where the recording has him. Those that are
     /// back at their records, and in nobody's way, are theirs again.
     pub(super) fn hand_over(&self, playback: &mut Playback, world: &World) {
-        let others = self.others(playback, world);
-        if others.elsewhere.is_empty() {
+        if is_as_recorded(playback, world) {
             return;
         }
+        let others = self.others(playback, world);
         let now = world.clock().step;
         let Playback { parts, departures } = playback;
         for (part, presence) in self.parts.iter().zip(parts) {
@@ -164,6 +164,12 @@ impl Player {
             *course = course.after(&heeded, part.recorded(now + 1), dt);
         }
     }
+}
+
+/// Whether nobody is on the road but recorded vehicles on their records.
+fn is_as_recorded(playback: &Playback, world: &World) -> bool {
+    let present = playback.parts.iter().filter(|it| on_its_path(it, world).is_some());
+    playback.parts.iter().all(|it| it.course.is_none()) && present.count() == world.on_road()
 }
 
 /// A hand-over of a vehicle begins because of another one.

@@ -200,9 +200,13 @@ impl Player {
         self.go(playback, world);
         let now = world.clock().step;
         for (number, part) in self.parts.iter().enumerate() {
-            let has_come = playback.parts[number].vehicle.is_some();
-            if !has_come && part.first_step <= now && now <= part.last_step() {
+            if playback.parts[number].vehicle.is_some() || now < part.first_step {
+                continue;
+            }
+            if now <= part.last_step() {
                 self.come(number, playback, world);
+            } else if now == part.last_step() + 1 {
+                playback.departures.never_came.push(part.recorded);
             }
         }
         let Playback { parts, departures } = playback;
@@ -248,7 +252,8 @@ impl Player {
         let vehicle = part.vehicle();
         let is_driver = self.is_driver(part, now);
         let in_the_way = world.room_for(&vehicle, 0.0).err();
-        let in_the_way = in_the_way.filter(|it| is_driver || !playback.is_on_record(*it, world));
+        let makes_way = |it: &VehicleId| part.is_vehicle && !playback.is_on_record(*it, world);
+        let in_the_way = in_the_way.filter(|it| is_driver || makes_way(it));
         let place = match in_the_way {
             None => Ok(vehicle),
             Some(_) if is_driver => world.room_for(&vehicle, BEHIND),

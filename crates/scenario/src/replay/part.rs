@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use laneweave_network::turn;
 use laneweave_recorded::class_of;
 use laneweave_recordings::{Recording, State, Track, resampled};
 use laneweave_sim::{Class, Control, RecordedPose, RecordedVehicle};
@@ -113,11 +114,10 @@ impl Part {
         let length = self.ways[after] - self.ways[before];
         let share = if length > 0.0 { ((way - self.ways[before]) / length).clamp(0.0, 1.0) } else { 1.0 };
         let between = |from: f64, to: f64| from + share * (to - from);
-        let turn = to.heading - from.heading;
         RecordedPose {
             x: between(from.x, to.x),
             y: between(from.y, to.y),
-            heading: from.heading + share * turn.sin().atan2(turn.cos()),
+            heading: from.heading + share * turn(from.heading, to.heading),
             speed,
         }
     }

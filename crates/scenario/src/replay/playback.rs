@@ -36,6 +36,8 @@ pub struct Departures {
     pub starts: Vec<Start>,
     /// Drivers who were taken off the road when their records ended.
     pub taken_off: Vec<i64>,
+    /// Vehicles for which there was no room before their records ended.
+    pub never_came: Vec<i64>,
 }
 
 /// A recorded vehicle left its record, since somebody was in the way who is not where the recording had him.

@@ -2,7 +2,7 @@
 //! main entry in the lane along which it drives, or in no lane. In all other lanes that it touches, an obstacle stands
 //! for it. So does one for a vehicle that crosses a junction without a reservation.
 
-use laneweave_network::{Footprint, Point, Pose, Position, Rectangle};
+use laneweave_network::{Footprint, Point, Pose, Position, Rectangle, turn};
 
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
@@ -168,7 +168,7 @@ pub(super) fn main_lane(
         let (dx, dy) = (front.x - foot.x, front.y - foot.y);
         let (sin, cos) = heading.sin_cos();
         let (beyond, aside) = (dx * cos + dy * sin, dy * cos - dx * sin);
-        let turn = angle(rectangle.pose.heading - heading);
+        let turn = turn(heading, rectangle.pose.heading);
         let (lanelet, along) = network.lanelet_at(Position::new(it.chain, it.to));
         let half_width = 0.5 * lanelet.width(along);
         let square = |it: f64| it * it;
@@ -181,11 +181,6 @@ pub(super) fn main_lane(
     };
     let costs = footprints.iter().enumerate().filter_map(|(number, it)| Some((number, cost(it)?)));
     costs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|it| it.0)
-}
-
-/// The angle between −π and π that points in the same direction [rad].
-fn angle(angle: f64) -> f64 {
-    angle.sin().atan2(angle.cos())
 }
 
 /// Shows a vehicle on its way across a conflict area without a reservation in all lanes that it touches. Other drivers

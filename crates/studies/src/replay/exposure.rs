@@ -22,8 +22,9 @@ pub(super) struct Exposure {
     drivers: BTreeSet<VehicleId>,
     /// What happened otherwise than recorded.
     pub(super) departures: Departures,
-    /// Drivers who began elsewhere, and those because of whom somebody was handed over.
-    not_compared: BTreeSet<VehicleId>,
+    /// Drivers who began later than recorded, or behind, and those because of whom somebody was handed over: what they
+    /// do afterwards is not compared with their records.
+    pub(super) not_compared: BTreeSet<VehicleId>,
 }
 
 impl Exposure {

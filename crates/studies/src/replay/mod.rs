@@ -139,9 +139,9 @@ struct Watched {
 
 impl Watched {
     fn observe(&mut self, simulation: &Simulation, followed: &Followed) {
-        self.tracer.observe(simulation, followed);
-        self.collisions.observe(simulation);
         self.exposure.observe(simulation);
+        self.tracer.observe(simulation, followed, &self.exposure.not_compared);
+        self.collisions.observe(simulation);
         if simulation.played().count() > self.vehicles.len() {
             let named = |it: Played| Named { recorded: it.recorded, vehicle: it.vehicle };
             self.vehicles = simulation.played().map(named).collect();

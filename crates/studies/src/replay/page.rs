@@ -69,6 +69,7 @@ fn as_recorded(report: &ReplayReport, network: &Network) -> Section {
         ("time of drivers compared [%]", Align::Numbers),
         ("taken off", Align::Numbers),
         ("late or behind", Align::Numbers),
+        ("never came", Align::Numbers),
     ];
     let mut table =
         Table::new("Means of the rollouts, with 95 % intervals where there are several.", &columns);
@@ -80,6 +81,7 @@ fn as_recorded(report: &ReplayReport, network: &Network) -> Section {
             interval(it.compared_share, 100.0),
             format!("{:.1}", it.taken_off),
             format!("{:.1}", it.late),
+            format!("{:.1}", it.never_came),
         ];
         table.row([model.to_string()].into_iter().chain(figures));
     }

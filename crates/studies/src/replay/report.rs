@@ -86,6 +86,8 @@ pub struct HandOvers {
     pub taken_off: f64,
     /// Drivers who began later than their records, or behind them.
     pub late: f64,
+    /// Vehicles, drivers or not, for which there was no room before their records ended.
+    pub never_came: f64,
 }
 
 /// Pairs of vehicles that collided in a rollout, in the mean.
@@ -283,6 +285,7 @@ impl HandOvers {
             compared_share: over(rollouts, |it| it.exposure.compared()),
             taken_off: count(|it| it.exposure.departures.taken_off.len()),
             late: count(|it| it.exposure.departures.starts.len()),
+            never_came: count(|it| it.exposure.departures.never_came.len()),
         }
     }
 }

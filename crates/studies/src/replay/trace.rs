@@ -55,24 +55,28 @@ pub(super) enum Followed<'a> {
 #[derive(Default)]
 pub(super) struct Tracer {
     pub(super) traces: BTreeMap<i64, Trace>,
-    /// Drivers who began elsewhere, or later, than recorded. They are not compared.
-    elsewhere: BTreeSet<VehicleId>,
-    /// Number of hand-overs that were seen.
-    hand_overs: usize,
 }
 
 impl Tracer {
-    /// Follows the vehicles of the recording in `simulation`, once after each step.
-    pub(super) fn observe(&mut self, simulation: &Simulation, followed: &Followed) {
+    /// Follows the vehicles of the recording in `simulation`, once after each step, but not those that are
+    /// `not_compared` from now on.
+    pub(super) fn observe(
+        &mut self,
+        simulation: &Simulation,
+        followed: &Followed,
+        not_compared: &BTreeSet<VehicleId>,
+    ) {
         let now = simulation.clock().step;
-        if matches!(followed, Followed::Drivers) {
-            self.cut(simulation);
-        }
         for Played { recorded, vehicle, is_reactive, .. } in simulation.played() {
-            let known = self.traces.get(&recorded);
+            let known = self.traces.get_mut(&recorded);
+            let is_compared = !not_compared.contains(&vehicle);
             let is_due = match (known, followed) {
-                (Some(known), _) => known.until + 1 == now && !known.is_cut,
-                (None, Followed::Drivers) => is_reactive && !self.elsewhere.contains(&vehicle),
+                (Some(known), _) => {
+                    let is_due = known.until + 1 == now && !known.is_cut;
+                    known.is_cut |= is_due && !is_compared;
+                    is_due && is_compared
+                }
+                (None, Followed::Drivers) => is_reactive && is_compared,
                 (None, Followed::Recorded(drivers)) => {
                     drivers.get(&recorded).is_some_and(|it| it.from == now)
                 }
@@ -82,20 +86,6 @@ impl Tracer {
                 self.see(recorded, &vehicle, simulation);
             }
         }
-    }
-
-    /// Notes drivers who begin elsewhere than their records, and those because of whom somebody was handed over.
-    fn cut(&mut self, simulation: &Simulation) {
-        let departures = simulation.departures();
-        let elsewhere = departures.starts.iter().filter(|it| it.because_of.is_some());
-        self.elsewhere.extend(elsewhere.map(|it| it.vehicle));
-        for new in &departures.hand_overs[self.hand_overs..] {
-            let causes = simulation.played().filter(|it| it.vehicle == new.because_of);
-            for Played { recorded, .. } in causes {
-                self.traces.get_mut(&recorded).into_iter().for_each(|it| it.is_cut = true);
-            }
-        }
-        self.hand_overs = departures.hand_overs.len();
     }
 
     fn see(&mut self, recorded: i64, vehicle: &Vehicle, simulation: &Simulation) {

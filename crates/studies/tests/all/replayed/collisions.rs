@@ -1,5 +1,6 @@
 //! Who is in the way of a recorded vehicle hands it over, so that nobody is run into.
 
+use laneweave::Departures;
 use laneweave::scenario::Origin;
 use laneweave_recordings::{Recording, RoadUser, State, Track};
 use laneweave_studies::replay::{Asked, HandOvers, Matched, Mean, replay};
@@ -104,4 +105,29 @@ fn a_driver_leaves_when_its_record_ends_and_one_whose_place_is_taken_comes_behin
         assert!(start.behind_m > 0.0 || start.late_steps > 0);
     }
     assert_eq!(simulation.counters().collisions, 0);
+}
+
+/// The departures of a replay in which number 1 becomes a driver at once and stops behind number 9, which is recorded.
+/// The vehicle 2 of a class is first seen where number 1 stands, for so many frames.
+fn arrives_where_a_driver_stands(class: RoadUser, frames: usize) -> Departures {
+    let stands = car(9, 106.0, |_| 1.75, |_| 0.0);
+    let driver = car(1, 100.0, |_| 1.75, |time| if time < 5.0 { 0.0 } else { 20.0 });
+    let mut comes = Track { class, ..car(2, 100.0, |_| 1.75, |_| 0.0) };
+    comes.states.iter_mut().for_each(|it| it.frame += 100);
+    comes.states.truncate(frames);
+    let mut recording = Recording { step: 0.1, tracks: vec![stands, driver, comes] };
+    recording.tracks[0].states.iter_mut().for_each(|it| it.speed = 0.0);
+    let mut scenario = replayed(written(&recording), map("motorway_3_lanes.osm"), 0.0);
+    scenario.replay.reactive_ids = vec![1];
+    scenario.styles = [("conservative".to_owned(), 1.0)].into();
+    let mut simulation = crate::replayed::set_up::ready(&scenario);
+    (0..simulation.run_steps()[1]).for_each(|_| simulation.advance());
+    simulation.departures().clone()
+}
+
+#[test]
+fn who_finds_no_room_before_its_record_ends_is_counted_and_a_cyclist_is_where_it_was() {
+    assert_eq!(arrives_where_a_driver_stands(RoadUser::Car, 10).never_came, [2]);
+    let cyclist = arrives_where_a_driver_stands(RoadUser::Bicycle, 10);
+    assert!(cyclist.never_came.is_empty() && cyclist.hand_overs.is_empty(), "{cyclist:?}");
 }
