@@ -1,5 +1,6 @@
 //! Cleaning: data that no real road user can produce is corrected, or cut out, and reported.
 
+mod ends;
 mod motion;
 mod positions;
 mod report;
@@ -13,7 +14,8 @@ pub use report::{CleaningReport, Example, Finding};
 /// The steps for each track, in this order: An impossible size is replaced by the usual one of its class. States with
 /// numbers that are not finite are left out, and further states of one frame. Single states far off the path are left
 /// out, too; where the path itself jumps, the track is split. Missing frames are interpolated up to 1 s; a longer gap
-/// splits the track. A speed that contradicts the positions by more than 5 m/s is replaced by that of smoothed
+/// splits the track. The first and last positions of a vehicle that was seen only in part, too far in view for any
+/// acceleration, are put where the motion after and before them says. A speed that contradicts the positions by more than 5 m/s is replaced by that of smoothed
 /// positions. A heading more than 45° off the direction of motion is replaced in the same way.
 pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
     let mut report = CleaningReport {
@@ -27,6 +29,7 @@ pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
         let (length, width) = size(&track, &mut noted);
         let states = readable(track.states, &mut noted);
         for mut states in positions::parts(states, step, &mut noted) {
+            ends::complete(&mut states, step, &mut noted);
             motion::mend(&mut states, step, &mut noted);
             tracks.push(Track { id: track.id, class: track.class, length, width, states });
         }

@@ -48,6 +48,13 @@ impl CutIn {
     pub fn inverse_time_to_collision(&self) -> f64 {
         (self.follower_speed - self.speed).max(0.0) / self.gap
     }
+
+    /// Braking with which the follower comes to the speed of the other just before it reaches it [m/s²]: the
+    /// deceleration rate to avoid a crash (DRAC); 0 where the gap does not close.
+    pub fn needed_braking(&self) -> f64 {
+        let closing = (self.follower_speed - self.speed).max(0.0);
+        0.5 * closing * closing / self.gap
+    }
 }
 
 /// The cut-ins among the lane `changes` of a recording, in their order. Vehicles whose recorded bodies overlap have no

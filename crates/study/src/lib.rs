@@ -7,6 +7,7 @@ mod edie;
 mod figures;
 mod histogram;
 mod rate;
+mod score;
 mod signal;
 mod spread;
 mod statistics;
@@ -23,6 +24,7 @@ pub use figures::{
 };
 pub use histogram::Histogram;
 pub use rate::{RatePoint, RateSeries, rate_by_density};
+pub use score::{count_score, crps};
 pub use signal::{Signal, SignalQueue};
 pub use spread::{chance_of_more, middle_95, quantile, share_between};
 pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};

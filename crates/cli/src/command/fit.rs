@@ -15,6 +15,7 @@ use laneweave_studies::fit::{FIGURES, FITTED, FitReport, Request, Rollouts, figu
 
 use super::check::{Reading, json};
 use super::numbers::{number, seed};
+use super::progress::ShareDone;
 use super::say;
 
 /// Most classes of drivers.
@@ -104,7 +105,9 @@ impl FitArguments {
         let mut report = observed.fit()?;
         if let Some(count) = self.judge {
             let threads = available_parallelism().map_or(1, NonZero::get);
-            report.judged = observed.judge(&Rollouts { count, threads })?;
+            let shown = ShareDone::of("simulations");
+            report.judged = observed.judge(&Rollouts { count, threads }, &|share| shown.show(share))?;
+            shown.clear();
             if report.judged.is_none() {
                 eprintln!(
                     "warning: the recordings are too short to be simulated: at least 60 s are needed before and after two \

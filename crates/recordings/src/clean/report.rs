@@ -21,6 +21,8 @@ pub struct CleaningReport {
     pub long_gaps: Finding,
     /// States that were interpolated over shorter gaps.
     pub interpolated: Finding,
+    /// First and last positions of vehicles that were seen only in part: taken from the motion after and before them.
+    pub partly_seen: Finding,
     /// Speeds that contradict the positions by more than 5 m/s: taken from smoothed positions.
     pub speeds: Finding,
     /// Headings that contradict the motion by more than 45°: taken from it.
@@ -59,7 +61,7 @@ impl Finding {
 
 impl CleaningReport {
     /// Each finding with its name.
-    pub fn findings(&self) -> [(&'static str, &Finding); 9] {
+    pub fn findings(&self) -> [(&'static str, &Finding); 10] {
         [
             ("implausible sizes, replaced", &self.sizes),
             ("states that are not finite, left out", &self.not_finite),
@@ -68,6 +70,7 @@ impl CleaningReport {
             ("jumps; tracks were split there", &self.jumps),
             ("gaps of more than 1 s; tracks were split there", &self.long_gaps),
             ("missing states, interpolated", &self.interpolated),
+            ("places where vehicles were seen only in part, replaced", &self.partly_seen),
             ("speeds that contradict the positions, replaced", &self.speeds),
             ("headings that contradict the motion, replaced", &self.headings),
         ]

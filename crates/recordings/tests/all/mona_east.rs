@@ -45,9 +45,13 @@ fn all_tracks_are_read_and_few_states_are_mended() {
     assert_eq!((recording.step, recording.tracks.len(), recording.frames()), (0.2, 934, Some((1, 2400))));
     let (cleaned, report) = clean(recording);
     assert_eq!(report.states, 92_058);
-    let share = report.speeds.count as f64 / report.states as f64;
-    assert!((0.001..0.02).contains(&share), "{report}");
-    assert!(report.headings.count + report.outliers.count + report.jumps.count < 50, "{report}");
+    // Most vehicles are seen in part when they come into view, and not when they go out of it.
+    let share = report.partly_seen.count as f64 / cleaned.tracks.len() as f64;
+    assert!((0.7..0.9).contains(&share), "{report}");
+    assert!(
+        report.speeds.count + report.headings.count + report.outliers.count + report.jumps.count < 50,
+        "{report}"
+    );
     // Nothing is left to correct.
     let (again, report) = clean(cleaned.clone());
     assert!(report.jumps.count + report.long_gaps.count + report.speeds.count == 0, "{report}");
@@ -98,7 +102,7 @@ fn its_lane_changes_are_found() {
         let kinds =
             [RecordedChangeKind::Discretionary, RecordedChangeKind::Route, RecordedChangeKind::Unknown]
                 .map(|kind| changes.iter().filter(|it| it.kind == kind).count());
-        assert_eq!((changes.len(), kinds, count(|it| it.along_graph)), (132, [92, 34, 6], 91));
+        assert_eq!((changes.len(), kinds, count(|it| it.along_graph)), (134, [92, 36, 6], 93));
         assert_eq!(count(|it| it.returned_after.is_some()), 2);
         let id = |it: LaneletIndex| network.lanelets[it.at()].id;
         found.push(changes.iter().map(|it| (it.vehicle, id(it.from), id(it.to))).collect());

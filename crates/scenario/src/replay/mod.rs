@@ -12,6 +12,7 @@
 //! A [`Player`] puts recorded vehicles on the road, moves them and takes them off, between the steps. Its state is a
 //! `Playback`, which checkpoints hold. So explanations and branches take a replay like any run.
 
+mod boundary;
 mod conflict;
 mod course;
 mod desire;
@@ -31,6 +32,7 @@ use crate::fault::Fault;
 use crate::recording::{elsewhere, open_recordings};
 use crate::scenario::{LONGEST, Origin, Replay, Scenario};
 use crate::script::first_step_from;
+use boundary::{Boundary, GoesOn};
 use part::Part;
 use playback::Presence;
 
@@ -48,7 +50,8 @@ const BEHIND: f64 = 30.0;
 pub enum AtItsEnd {
     /// It is taken off the road: beyond, no recorded vehicle is there that it could react to.
     Leaves,
-    /// It drives on.
+    /// It drives on to the end of the view, and beyond it as fast as recorded vehicles left. Vehicles that are first
+    /// seen in the middle of the view do not come: they may be those that were lost before.
     DrivesOn,
 }
 
@@ -81,6 +84,7 @@ pub struct Player {
     from_s: f64,
     permitted: Arc<BTreeSet<[LaneletIndex; 2]>>,
     at_its_end: AtItsEnd,
+    boundary: Arc<Boundary>,
 }
 
 /// A recorded vehicle of a world.
@@ -129,11 +133,18 @@ impl Player {
         check_place(&matched, scenario)?;
         let shares = TurningShares::of(&matched, world.scene().navigator).into();
         let begin = (from_s / recording.step).round() as i64;
+        let boundary = Boundary::of(&matched).from(begin as f64 * recording.step);
         shift(&mut recording, begin);
         let reactive = chosen(&recording, replay, origin)?;
         let from_step = first_step_from(replay.reactive_from_s, dt);
+        let mut parts = part::parts(&recording, &reactive, dt);
+        if at_its_end == AtItsEnd::DrivesOn {
+            let comes =
+                |it: &Part| it.first_step == 0 || !it.is_vehicle || boundary.is_entry(it.vehicle().pose);
+            parts.retain(comes);
+        }
         Ok(Some(Player {
-            parts: part::parts(&recording, &reactive, dt).into(),
+            parts: parts.into(),
             from_step: (!reactive.is_empty()).then_some(from_step),
             shares,
             random: Random::new(scenario.run.seed),
@@ -141,6 +152,7 @@ impl Player {
             from_s: begin as f64 * recording.step,
             permitted: permitted.into(),
             at_its_end,
+            boundary: boundary.into(),
         }))
     }
 
@@ -227,20 +239,35 @@ impl Player {
         for (part, presence) in self.parts.iter().zip(parts) {
             let Some(vehicle) = presence.vehicle.and_then(|it| world.vehicle(it)) else { continue };
             let (id, is_driver) = (vehicle.id(), !vehicle.is_on_its_own_path());
-            let goes = match presence.course {
-                Some(course) => part.last_step() < now && course.is_over(part.path()),
-                None => part.last_step() < now && !(is_driver && self.at_its_end == AtItsEnd::DrivesOn),
+            let has_ended = part.last_step() < now;
+            let goes = match (presence.course, self.at_its_end) {
+                (Some(course), _) => has_ended && course.is_over(part.path()),
+                (None, AtItsEnd::DrivesOn) if is_driver => self.leaves_the_view(presence, id, world),
+                (None, _) => has_ended,
             };
             if !goes {
                 continue;
             }
             world.remove_recorded(id);
-            if is_driver {
+            if is_driver && self.at_its_end == AtItsEnd::Leaves {
                 departures.taken_off.push(part.recorded);
             }
             if presence.course.take().is_some() {
                 departures.end_hand_over(id, now);
             }
+        }
+    }
+
+    /// Whether a driver is to be taken off the road, since it has left the view. Before, and for a while beyond, it is no
+    /// faster than vehicles were that left there.
+    fn leaves_the_view(&self, presence: &mut Presence, id: VehicleId, world: &mut World) -> bool {
+        let Some(vehicle) = world.vehicle(id) else { return false };
+        presence.leaving = self.boundary.leaving(presence.leaving, &vehicle, world);
+        let Some(leaving) = &mut presence.leaving else { return false };
+        match self.boundary.goes_on(leaving, &vehicle, world) {
+            GoesOn::Freely => false,
+            GoesOn::AtMost(speed, lateral) => !world.limit_recorded(id, speed, lateral),
+            GoesOn::OutOfSight => true,
         }
     }
 

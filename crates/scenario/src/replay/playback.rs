@@ -3,6 +3,7 @@
 use laneweave_sim::{VehicleId, World};
 use serde::{Deserialize, Serialize};
 
+use super::boundary::Leaving;
 use super::course::Course;
 
 /// What has been played so far.
@@ -21,6 +22,8 @@ pub(super) struct Presence {
     pub(super) vehicle: Option<VehicleId>,
     /// Where the vehicle is on its path, while it is handed over.
     pub(super) course: Option<Course>,
+    /// Where it leaves the view as a driver.
+    pub(super) leaving: Option<Leaving>,
     /// Who was in the way when a driver was to come.
     pub(super) refused_for: Option<VehicleId>,
     /// How far behind its place the driver came [m].

@@ -60,7 +60,8 @@ pub(crate) fn obey(
             Lateral::Keep => change(scene, moment, &me, None, before, plan, outbox),
             Lateral::Change(side) => change(scene, moment, &me, Some(side), before, plan, outbox),
         }
-        if let Some(acceleration) = acceleration(longitudinal, &me, moment.clock.dt) {
+        let own = f64::from(plan.next[me.spot.index].acceleration);
+        if let Some(acceleration) = acceleration(longitudinal, &me, own, moment.clock.dt) {
             let stretch = stretch(scene, me.spot);
             let next = moved(me.motion, acceleration, stretch, moment.clock.dt);
             drive(scene, &me, next, (moment.clock, before), plan, outbox);
@@ -91,13 +92,20 @@ fn let_others_go(
     }
 }
 
-/// The acceleration that the user wants [m/s²]; `None` if the driver's counts.
-fn acceleration(longitudinal: Longitudinal, me: &Me, dt: f64) -> Option<f64> {
+/// The acceleration that the user wants of a driver who would choose its `own` [m/s²]; `None` if the driver's counts.
+fn acceleration(longitudinal: Longitudinal, me: &Me, own: f64, dt: f64) -> Option<f64> {
     let wanted = match longitudinal {
         Longitudinal::Driver => return None,
         Longitudinal::Acceleration(acceleration) => acceleration,
         Longitudinal::Speed(speed) => {
             ((speed - me.motion.speed) / dt).clamp(-HARDEST_BRAKING, me.driver.class.strength())
+        }
+        Longitudinal::AtMost(speed) => {
+            let slower = ((speed - me.motion.speed) / dt).max(-Control::GENTLE);
+            if own <= slower {
+                return None;
+            }
+            slower
         }
     };
     let to_the_fastest = (Control::FASTEST - me.motion.speed) / dt;

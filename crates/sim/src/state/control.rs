@@ -39,6 +39,8 @@ pub enum Longitudinal {
     /// At this speed [m/s], whatever is ahead. The vehicle reaches it as soon as it can: with the maximum acceleration
     /// of its class, or braking at 8 m/s².
     Speed(f64),
+    /// As its own driver does, but no faster than this [m/s]. Above it, the vehicle brakes gently: at 2 m/s².
+    AtMost(f64),
 }
 
 /// Whether a vehicle changes lanes.
@@ -61,6 +63,8 @@ impl Control {
     /// The hardest acceleration and braking that a user may ask for [m/s²]. Followers rely on it: they stay clear of a
     /// vehicle that brakes as hard as vehicles can.
     pub const HARDEST: f64 = laneweave_models::braking::HARDEST_BRAKING;
+    /// A vehicle that is too fast for its user brakes so hard [m/s²] (ours).
+    pub(crate) const GENTLE: f64 = 2.0;
     /// The highest speed that a user may ask for [m/s]: 300 km/h.
     pub const FASTEST: f64 = 300.0 / 3.6;
     /// No coordinate of a pose is further from 0 than this [m], and no heading [rad].
@@ -72,7 +76,7 @@ impl Control {
             Control::Drive { longitudinal, .. } => match longitudinal {
                 Longitudinal::Driver => true,
                 Longitudinal::Acceleration(it) => it.abs() <= Control::HARDEST,
-                Longitudinal::Speed(it) => (0.0..=Control::FASTEST).contains(&it),
+                Longitudinal::Speed(it) | Longitudinal::AtMost(it) => (0.0..=Control::FASTEST).contains(&it),
             },
             Control::Pose { x, y, heading, speed } => {
                 [x, y, heading].iter().all(|it| it.abs() <= Control::FARTHEST)

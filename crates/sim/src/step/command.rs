@@ -227,6 +227,8 @@ pub(super) fn check_control(control: Control) -> Result<(), CommandError> {
         Longitudinal::Acceleration(value) => {
             in_range("an acceleration", value, [-Control::HARDEST, Control::HARDEST], "m/s²")
         }
-        Longitudinal::Speed(value) => in_range("a speed", value, [0.0, Control::FASTEST], "m/s"),
+        Longitudinal::Speed(value) | Longitudinal::AtMost(value) => {
+            in_range("a speed", value, [0.0, Control::FASTEST], "m/s")
+        }
     }
 }

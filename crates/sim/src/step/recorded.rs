@@ -10,7 +10,7 @@ use laneweave_network::{ChainIndex, Footprint, Point, Pose, Position, Rectangle}
 use crate::record::lanelet_aggregates::Mark;
 use crate::record::trip_log::TripRecord;
 use crate::route::roads::Roads;
-use crate::state::control::Control;
+use crate::state::control::{Control, Lateral, Longitudinal};
 use crate::state::externals::{self, External};
 use crate::state::lane::{Entry, VehicleId};
 use crate::state::setup::Placement;
@@ -152,6 +152,17 @@ impl World {
         let external = self.traffic.externals_mut().of_mut(id).filter(|it| it.body.is_some());
         let Some(external) = external.filter(|_| check_control(pose.control()).is_ok()) else { return false };
         external.control = pose.control();
+        true
+    }
+
+    /// Lets a recorded vehicle that has become a driver drive no faster than this [m/s], from the next step on, and change
+    /// lanes so. Returns whether it can: not so if the number is not in its range, or if the vehicle has left the road.
+    pub fn limit_recorded(&mut self, id: VehicleId, speed: f64, lateral: Lateral) -> bool {
+        let control = Control::Drive { longitudinal: Longitudinal::AtMost(speed), lateral };
+        if check_control(control).is_err() || self.vehicle(id).is_none() {
+            return false;
+        }
+        self.carrying_out().control(id, control);
         true
     }
 

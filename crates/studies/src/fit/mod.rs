@@ -149,6 +149,11 @@ impl Request {
         self.lead.map_or(Begin::Auto, Begin::Lead)
     }
 
+    /// The text of the style from which a fit begins.
+    fn prior_text(&self) -> Result<String, Fault> {
+        Ok(find(&self.prior, Path::new("."), || "--prior".to_owned())?.text)
+    }
+
     fn prior_style(&self) -> Result<PriorStyle, Fault> {
         let place = || "--prior".to_owned();
         let source = find(&self.prior, Path::new("."), place)?;

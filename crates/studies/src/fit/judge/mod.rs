@@ -2,12 +2,19 @@
 //! beside what was recorded.
 //!
 //! The style is fitted to the first two thirds of the recorded time. In the last third vehicles come when, where and as
-//! fast as they came, and drive on as drivers. A virtual drone sees them, so that recorded and simulated traffic are
-//! measured in the same way.
+//! fast as they came, drive on as drivers, and leave the view as fast as traffic did. A virtual drone sees them, so that
+//! recorded and simulated traffic are measured in the same way.
+//!
+//! There are two designs. In one, the last third is driven as a whole: an error grows, and a queue that comes from
+//! beyond the view has to be there. In the other, all vehicles become drivers where they were recorded, again and
+//! again, and drive for a short time.
 //!
 //! `split.rs` cuts recordings in time, `rollout.rs` simulates the recorded demand, all of whose vehicles are drivers,
-//! and `tally.rs` measures recorded and simulated traffic in one way.
+//! `tally.rs` measures recorded and simulated traffic in one way, and `contest.rs` sets models side by side.
 
+mod advance;
+mod contest;
+mod measures;
 mod models;
 #[cfg(feature = "reports")]
 mod page;
@@ -23,15 +30,15 @@ use laneweave_scenario::Fault;
 use super::Observed;
 use super::report::FitReport;
 use super::sources::Sources;
-use crate::parallel::in_parallel;
-use models::Rival;
-use report::{Value, values};
+use advance::Advance;
+use contest::{Contestant, Stages};
 use rollout::{Drivers, Stage};
 use split::{Piece, Split, between};
 use tally::{Scope, Tally};
 
 #[cfg(feature = "reports")]
 pub(super) use page::{figure, section};
+pub(super) use report::Design;
 pub use report::{Judged, JudgedMeasure, JudgedModel, Predicted};
 
 /// How a fit is judged.
@@ -50,11 +57,11 @@ const RARE: f64 = 0.02;
 
 impl Observed {
     /// Fits a style to the first two thirds of the recorded time, and simulates the last third with it; `None` if the
-    /// recordings are too short to be simulated.
+    /// recordings are too short to be simulated. `show` is told what share of the simulations is done, from 0 to 1.
     ///
     /// # Errors
     /// If a style cannot be fitted to the first two thirds, or the place cannot be simulated.
-    pub fn judge(&self, rollouts: &Rollouts) -> Result<Option<Judged>, Fault> {
+    pub fn judge(&self, rollouts: &Rollouts, show: &(dyn Fn(f64) + Sync)) -> Result<Option<Judged>, Fault> {
         let split = Split::of(&self.sources);
         if split.before.is_empty() || split.after.is_empty() {
             return Ok(None);
@@ -66,28 +73,25 @@ impl Observed {
         let report = FitReport::of(&observed, &study)?;
         let shares = report.classes.iter().map(|it| it.share);
         let texts = report.styles.iter().map(|it| it.text.clone());
-        let drivers = Drivers { styles: texts.zip(shares).collect(), draw: None };
-        let [before, after] = [&split.before, &split.after].map(|it| self.stages(it, &drivers));
-        let (before, after) = (before?, after?);
-        let recorded = self.recorded(&split.before)?.rate().unwrap_or(0.0);
-        let scales = in_parallel(&Rival::ALL, rollouts.threads, |it| it.fitted(&drivers, &before, recorded))?;
-        let mut models = vec![Contestant { rival: None, scale: 0.0, drivers: drivers.clone() }];
-        for (rival, scale) in Rival::ALL.into_iter().zip(scales) {
-            models.push(Contestant { rival: Some(rival), scale, drivers: rival.drives(&drivers, scale)? });
-        }
-        let recorded = self.recorded(&split.after)?;
-        let tallies = simulated(&models, &after, rollouts)?;
-        let seconds = |pieces: &[Piece]| {
-            let length = |it: &Piece| {
-                (it.measured[1] - it.measured[0]) as f64 * self.sources.parts[it.part].recording.step
-            };
-            pieces.iter().map(length).sum::<f64>()
-        };
-        let mut judged = judged(&models, &recorded, &tallies);
-        judged.fitted_s = observed.sources.seconds();
-        judged.simulated_s = seconds(&split.after);
-        judged.events_used = observed.observations.used().count();
-        Ok(Some(judged))
+        let fitted = Drivers { styles: texts.zip(shares).collect(), draw: None };
+        let default = Drivers { styles: vec![(self.request.prior_text()?, 1.0)], draw: None };
+        let advance = Advance::of(Contestant::simulations(rollouts, 2), show);
+        let before = self.stages(&split.before, &fitted)?;
+        let rate = before.recorded.rate().unwrap_or(0.0);
+        let drivers = [fitted.clone(), default];
+        let models = Contestant::all(drivers, &before.stages, rate, (rollouts.threads, &advance))?;
+        let (third, judged) = self.stages(&split.after, &fitted)?.judged(&models, rollouts, &advance)?;
+        let (snapshots, _) = self.stages(&split.snapshots, &fitted)?.judged(&models, rollouts, &advance)?;
+        Ok(Some(Judged {
+            fitted_s: observed.sources.seconds(),
+            simulated_s: third.simulated_s,
+            events_used: observed.observations.used().count(),
+            events: third.events,
+            rollouts: rollouts.count as usize,
+            models: judged,
+            measures: third.measures,
+            snapshots,
+        }))
     }
 
     /// The same with other recordings.
@@ -95,10 +99,13 @@ impl Observed {
         self.request.observed(sources, self.request.prior_style()?)
     }
 
-    /// The stages of pieces, and where they are measured.
-    fn stages(&self, pieces: &[Piece], drivers: &Drivers) -> Result<Vec<(Stage, Scope<'_>)>, Fault> {
+    /// The stages of pieces, and what was recorded there.
+    fn stages(&self, pieces: &[Piece], drivers: &Drivers) -> Result<Stages<'_>, Fault> {
         let stage = |it: &Piece| Ok((Stage::of(&self.sources, it, drivers)?, self.scope(it)));
-        pieces.iter().map(stage).collect()
+        let stages = pieces.iter().map(stage).collect::<Result<_, Fault>>()?;
+        let step = |it: &Piece| self.sources.parts[it.part].recording.step;
+        let seconds = pieces.iter().map(|it| (it.measured[1] - it.measured[0]) as f64 * step(it)).sum();
+        Ok(Stages { stages, recorded: self.recorded(pieces)?, seconds })
     }
 
     fn scope(&self, piece: &Piece) -> Scope<'_> {
@@ -115,71 +122,5 @@ impl Observed {
             tally.add(&between(recording, [piece.release, piece.measured[1]]), &self.scope(piece))?;
         }
         Ok(tally)
-    }
-}
-
-/// A model that is simulated.
-struct Contestant {
-    /// None: the fitted style.
-    rival: Option<Rival>,
-    scale: f64,
-    drivers: Drivers,
-}
-
-/// What was measured in each rollout of each model, and the collisions.
-fn simulated(
-    models: &[Contestant],
-    stages: &[(Stage, Scope)],
-    rollouts: &Rollouts,
-) -> Result<Vec<Vec<(Tally, u64)>>, Fault> {
-    let count = rollouts.count as usize;
-    let jobs: Vec<(usize, usize)> =
-        (0..models.len()).flat_map(|model| (0..count).map(move |number| (model, number))).collect();
-    let all = in_parallel(&jobs, rollouts.threads, |(model, number)| {
-        let Contestant { rival, drivers, .. } = &models[*model];
-        let draw = rival.is_none().then_some((number / SAME_DRAW) as u32);
-        let drivers = Drivers { draw, ..drivers.clone() };
-        let (mut tally, mut collisions) = (Tally::default(), 0);
-        for (stage, scope) in stages {
-            let rollout = stage.rollout(&drivers, *number as u64 + 1)?;
-            tally.add(&rollout.recording, scope)?;
-            collisions += rollout.collisions;
-        }
-        Ok((tally, collisions))
-    })?;
-    let mut all = all.into_iter();
-    Ok(models.iter().map(|_| all.by_ref().take(count).collect()).collect())
-}
-
-/// The rollouts of all models beside what was `recorded`.
-fn judged(models: &[Contestant], recorded: &Tally, rollouts: &[Vec<(Tally, u64)>]) -> Judged {
-    let thirds = recorded.thirds();
-    let total = recorded.exposure()[0];
-    let lanes = recorded.lanes.iter().filter(|it| it.0 >= RARE * total).count();
-    let lanes = if lanes > 1 { lanes } else { 0 };
-    let values = |tally: &Tally| values(tally, thirds, lanes);
-    let simulated: Vec<Vec<Vec<Value>>> =
-        rollouts.iter().map(|model| model.iter().map(|(tally, _)| values(tally)).collect()).collect();
-    let measure = |(at, (key, name, recorded)): (usize, Value)| {
-        let column = |model: usize| simulated[model].iter().map(|it| it[at].2).collect::<Vec<Option<f64>>>();
-        let predicted = |model: usize| {
-            let same = if models[model].rival.is_none() { SAME_DRAW } else { 1 };
-            Predicted::of(&column(model), recorded, &column(0), same)
-        };
-        JudgedMeasure { key, name, recorded, simulated: (0..models.len()).map(predicted).collect() }
-    };
-    let model = |(model, rollouts): (&Contestant, &Vec<(Tally, u64)>)| JudgedModel {
-        model: model.rival.map_or("fitted", Rival::name),
-        scale: model.rival.map(|it| (it.key(), model.scale)),
-        collisions: rollouts.iter().map(|it| it.1 as f64).sum::<f64>() / rollouts.len().max(1) as f64,
-    };
-    Judged {
-        fitted_s: 0.0,
-        simulated_s: 0.0,
-        events_used: 0,
-        events: recorded.changes(),
-        rollouts: rollouts.first().map_or(0, Vec::len),
-        models: models.iter().zip(rollouts).map(model).collect(),
-        measures: values(recorded).into_iter().enumerate().map(measure).collect(),
     }
 }

@@ -5,6 +5,7 @@ use laneweave_models::change::{LaneChangeModel, Lmrs, Mcdm, Mobil, Traffic};
 use laneweave_scenario::style::{Model, StyleTemplate};
 use laneweave_scenario::{Fault, Source};
 
+use super::advance::Advance;
 use super::rollout::{Drivers, Stage};
 use super::tally::{Scope, Tally};
 
@@ -18,9 +19,9 @@ pub(super) enum Rival {
 }
 
 /// Steps of the search for a scale.
-const STEPS: usize = 8;
+pub(super) const STEPS: usize = 8;
 /// Rollouts of each step.
-const ROLLOUTS: u64 = 2;
+pub(super) const ROLLOUTS: u64 = 2;
 
 impl Rival {
     /// All of them.
@@ -93,6 +94,7 @@ impl Rival {
         drivers: &Drivers,
         stages: &[(Stage, Scope)],
         rate: f64,
+        advance: &Advance,
     ) -> Result<f64, Fault> {
         let [mut low, mut high] = self.range();
         for _ in 0..STEPS {
@@ -103,6 +105,7 @@ impl Rival {
                 for (stage, scope) in stages {
                     tally.add(&stage.rollout(&drivers, seed)?.recording, scope)?;
                 }
+                advance.by_one();
             }
             if tally.rate().unwrap_or(0.0) > rate { low = middle } else { high = middle }
         }

@@ -3,6 +3,7 @@
 use laneweave_results::report::{Align, Figure, Section, Table};
 use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
+use super::report::{Score, scores};
 use super::{Judged, JudgedMeasure};
 
 /// The measures of the figure, with their names there.
@@ -19,21 +20,32 @@ const SHOWN: [(&str, &str); 8] = [
 
 /// The section of the report.
 pub(in crate::fit) fn section(judged: &Judged) -> Section {
-    let Judged { fitted_s, simulated_s, events_used, events, rollouts, .. } = judged;
+    let Judged { fitted_s, simulated_s, events_used, events, rollouts, measures, snapshots, .. } = judged;
     Section::new("world", "In the world")
         .text(format!(
             "A style is fitted to the first two thirds of the recorded time, {fitted_s:.0} s with {events_used} lane changes. In the last \
              third, {simulated_s:.0} s with {events} lane changes, vehicles come when, where and as fast as they came, and drive on as \
-             drivers of that style: {rollouts} rollouts, each pair with another draw of the parameters. A drone sees them with errors of \
-             10 cm. Lane changes count that began in view. Where vehicles go is drawn from those who went before."
+             drivers of that style: {rollouts} rollouts, each pair with another draw of the parameters. Where the view ends they are no \
+             faster than 85 % of traffic was there in that minute. A drone sees them with errors of 10 cm. Lane changes count that began in view. \
+             Where vehicles go is drawn from those who went before. Vehicles that were first seen in the middle of the view do not come: \
+             recordings lose vehicles, and find them again under another number."
         ))
         .figures(vec![figure(judged, Sheet::Column)])
-        .table(measures(judged))
+        .table(measured(measures, judged))
         .table(differences(judged))
+        .text(format!(
+            "In the second design all vehicles become drivers where they were recorded, {} times one after the other, and drive for {:.0} s \
+             in all, in which {} lane changes were recorded.",
+            snapshots.simulations, snapshots.simulated_s, snapshots.events
+        ))
+        .table(measured(&snapshots.measures, judged))
+        .table(scored("Scores of the last third", measures, judged))
+        .table(scored("Scores of the rollouts from snapshots", &snapshots.measures, judged))
         .text(
-            "The other models have the style's car-following and one number that is fitted to the rate of lane changes in the ten minutes \
-             before: a constant chance its threshold, MOBIL its threshold, LMRS its gain of speed. Neither drivers nor models know what \
-             traffic does beyond the view: no queue from there slows them down.",
+            "Three models have the style's car-following and one number that is fitted to the rate of lane changes in the ten minutes \
+             before: a constant chance its threshold, MOBIL its threshold, LMRS its gain of speed. The default is the built-in style from \
+             which the fit began, with its own car-following. A score is the less, the better: the continuous ranked probability score in \
+             the unit of the measure, and for counts the negative logarithm of the likelihood of the recorded count.",
         )
 }
 
@@ -61,9 +73,12 @@ pub(in crate::fit) fn figure(judged: &Judged, sheet: Sheet) -> Figure {
     }
 }
 
-fn measures(judged: &Judged) -> Table {
+fn measured(measures: &[JudgedMeasure], judged: &Judged) -> Table {
     let models = judged.models.iter().map(|it| (it.model, Align::Numbers));
-    let parameters = [("of the fitted one's spread, from parameters [%]", Align::Numbers)];
+    let parameters = [
+        ("width of the fitted one's interval", Align::Numbers),
+        ("of its spread, from parameters [%]", Align::Numbers),
+    ];
     let columns: Vec<(&str, Align)> = [("measure", Align::Words), ("recorded", Align::Numbers)]
         .into_iter()
         .chain(models)
@@ -72,12 +87,24 @@ fn measures(judged: &Judged) -> Table {
     let what = "Medians of the rollouts with the middle 95 %; an asterisk where the recorded value lies outside. What of the spread does \
                 not come from the parameters is chance.";
     let mut table = Table::new(what, &columns);
-    for JudgedMeasure { name, recorded, simulated, .. } in &judged.measures {
+    for JudgedMeasure { name, recorded, simulated, .. } in measures {
         let recorded = recorded.map_or("–".to_owned(), |it| format!("{it:.2}"));
+        let width = simulated[0].width.map_or("–".to_owned(), |it| format!("{it:.2}"));
         let share = simulated[0].from_parameters;
         let share = share.map_or("–".to_owned(), |it| format!("{:.0}", 100.0 * it));
         let cells = simulated.iter().map(|it| it.to_text().trim_end().to_owned());
-        table.row([name.clone(), recorded].into_iter().chain(cells).chain([share]));
+        table.row([name.clone(), recorded].into_iter().chain(cells).chain([width, share]));
+    }
+    table
+}
+
+fn scored(what: &str, measures: &[JudgedMeasure], judged: &Judged) -> Table {
+    let models = judged.models.iter().map(|it| (it.model, Align::Numbers));
+    let columns: Vec<(&str, Align)> = [("measure", Align::Words)].into_iter().chain(models).collect();
+    let mut table = Table::new(what, &columns);
+    for Score { name, values, .. } in scores(measures) {
+        let cells = values.iter().map(|it| it.map_or("–".to_owned(), |it| format!("{it:.2}")));
+        table.row([name].into_iter().chain(cells));
     }
     table
 }

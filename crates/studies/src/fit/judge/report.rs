@@ -1,10 +1,9 @@
 //! What a fit is worth in the world, as numbers.
 
-use laneweave_study::units::KMH_PER_MPS;
-use laneweave_study::{chance_of_more, middle_95, quantile, share_between};
+use laneweave_study::{chance_of_more, count_score, crps, middle_95, quantile, share_between};
 use serde::Serialize;
 
-use super::tally::{CLASSES, Tally, rate};
+pub(super) use super::measures::{Measured, measured};
 
 /// Fitted drivers beside recorded ones, on the part of the recordings to which they were not fitted. Fields are added,
 /// never renamed.
@@ -22,9 +21,27 @@ pub struct Judged {
     pub rollouts: usize,
     /// The models: the fitted style first.
     pub models: Vec<JudgedModel>,
+    /// What was measured, recorded and simulated, where the last third is driven as a whole.
+    pub measures: Vec<JudgedMeasure>,
+    /// Short rollouts from recorded snapshots of the last third.
+    pub snapshots: Design,
+}
+
+/// A design: how the recorded demand is simulated.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Design {
+    /// Simulations of each rollout.
+    pub simulations: usize,
+    /// Time that is measured in all of them [s].
+    pub simulated_s: f64,
+    /// Lane changes that were recorded in that time.
+    pub events: u32,
     /// What was measured, recorded and simulated.
     pub measures: Vec<JudgedMeasure>,
 }
+
+/// The keys of the rates of lane changes by class of density.
+const BY_DENSITY: [&str; 3] = ["rate_light", "rate_middle", "rate_dense"];
 
 /// A model that was simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -57,7 +74,14 @@ pub struct Predicted {
     pub median: Option<f64>,
     /// The interval of 95 % of the rollouts.
     pub interval: Option<[f64; 2]>,
-    /// Whether the recorded value lies in it: `inside`, `below` or `above`; `unknown` without a value.
+    /// The width of that interval.
+    pub width: Option<f64>,
+    /// The continuous ranked probability score, in the unit of the measure: the less, the better.
+    pub crps: Option<f64>,
+    /// Of counts, the negative logarithm of the likelihood of the recorded count, for a negative binomial distribution
+    /// with the mean and variance of the rollouts: the less, the better.
+    pub count_score: Option<f64>,
+    /// Whether the recorded value lies in the interval: `inside`, `below` or `above`; `unknown` without a value.
     pub recorded_is: &'static str,
     /// Share of the variance of the rollouts that comes from the uncertain parameters; the rest is chance. None without
     /// draws of the parameters.
@@ -68,50 +92,41 @@ pub struct Predicted {
     pub is_told_apart: bool,
 }
 
-/// A measure by its key and its name, with its value.
-pub(super) type Value = (String, String, Option<f64>);
+/// A score of each model.
+pub(super) struct Score {
+    pub(super) key: String,
+    pub(super) name: String,
+    pub(super) values: Vec<Option<f64>>,
+}
 
-/// What is measured of traffic, with the classes of density between these bounds [veh/km], for so many lanes.
-pub(super) fn values(tally: &Tally, thirds: [f64; CLASSES - 1], lanes: usize) -> Vec<Value> {
-    let [metres, seconds] = tally.exposure();
-    let named = |key: &str, name: &str, value| (key.to_owned(), name.to_owned(), value);
-    let mut all = vec![named("rate", "lane changes [1/veh-km]", tally.rate())];
-    let kinds = [
-        ("rate_discretionary", "discretionary [1/veh-km]"),
-        ("rate_route", "for the route [1/veh-km]"),
-        ("rate_unknown", "of unknown kind [1/veh-km]"),
-    ];
-    all.extend(kinds.iter().zip(tally.kinds).map(|((key, name), it)| named(key, name, rate(it, metres))));
-    let [low, high] = thirds;
-    let classes = [
-        ("rate_light", format!("below {low:.0} veh/km of lane [1/veh-km]")),
-        ("rate_middle", format!("{low:.0} to {high:.0} veh/km of lane [1/veh-km]")),
-        ("rate_dense", format!("from {high:.0} veh/km of lane on [1/veh-km]")),
-    ];
-    let rates = tally.rates_by_density(thirds);
-    all.extend(classes.iter().zip(rates).map(|((key, name), rate)| named(key, name, rate)));
-    for number in 0..lanes {
-        let (metres, changes) = tally.lanes.get(number).copied().unwrap_or_default();
-        let lane = number + 1;
-        let name = format!("from lane {lane} [1/veh-km]");
-        all.push((format!("rate_lane_{lane}"), name, rate(changes, metres)));
-    }
-    let faster = tally.gains.iter().filter(|it| **it > 0.0).count() as f64;
-    let share = (!tally.gains.is_empty()).then(|| 100.0 * faster / tally.gains.len() as f64);
-    let half = |values: &[f64]| quantile(values, 0.5);
-    let speed = (seconds > 0.0).then(|| KMH_PER_MPS * metres / seconds);
-    all.extend([
-        named("faster_share_pct", "to the faster lane [%]", share),
-        named("speed_gain_mps", "anticipated gain of speed, median [m/s]", half(&tally.gains)),
-        named("lead_gap_m", "gap to the new leader, median [m]", half(&tally.gaps[0])),
-        named("lag_gap_m", "gap to the new follower, median [m]", half(&tally.gaps[1])),
-        named("duration_s", "duration of a change, median [s]", half(&tally.durations)),
-        named("speed_kmh", "mean speed [km/h]", speed),
-        named("pace_s_per_km", "travel time, median [s/km]", half(&tally.paces)),
-        named("pace_p10_s_per_km", "travel time, a tenth take less [s/km]", quantile(&tally.paces, 0.1)),
-        named("pace_p90_s_per_km", "travel time, a tenth take more [s/km]", quantile(&tally.paces, 0.9)),
-    ]);
-    all
+/// The scores of all models: of how often lanes are changed, as counts and by density, and of every other measure.
+pub(super) fn scores(measures: &[JudgedMeasure]) -> Vec<Score> {
+    let models = measures.first().map_or(0, |it| it.simulated.len());
+    let column =
+        |of: &dyn Fn(&Predicted) -> Option<f64>, it: &JudgedMeasure| it.simulated.iter().map(of).collect();
+    let counted = measures.iter().find(|it| it.key == "rate");
+    let counts = counted.map(|it| Score {
+        key: "changes".into(),
+        name: "lane changes [nats]".into(),
+        values: column(&|it| it.count_score, it),
+    });
+    let classes: Vec<&JudgedMeasure> =
+        measures.iter().filter(|it| BY_DENSITY.contains(&it.key.as_str())).collect();
+    let mean = |model: usize| {
+        let all: Option<Vec<f64>> = classes.iter().map(|it| it.simulated[model].crps).collect();
+        all.filter(|it| !it.is_empty()).map(|it| it.iter().sum::<f64>() / it.len() as f64)
+    };
+    let by_density = Score {
+        key: "rate_by_density".into(),
+        name: "lane changes by density, mean [1/veh-km]".into(),
+        values: (0..models).map(mean).collect(),
+    };
+    let each = measures.iter().map(|it| Score {
+        key: it.key.clone(),
+        name: it.name.clone(),
+        values: column(&|it| it.crps, it),
+    });
+    counts.into_iter().chain([by_density]).chain(each).collect()
 }
 
 impl Predicted {
@@ -137,11 +152,21 @@ impl Predicted {
         Predicted {
             median: quantile(&known, 0.5),
             interval,
+            width: interval.map(|[low, high]| high - low),
+            crps: recorded.and_then(|it| crps(&known, it)),
+            count_score: None,
             recorded_is,
             from_parameters: share_between(&groups),
             more_than_fitted,
             is_told_apart: more_than_fitted.is_some_and(|it| !(0.025..=0.975).contains(&it)),
         }
+    }
+
+    /// The same with its score for counts, where the measure is one of counts.
+    pub(super) fn with_counts(self, counts: Option<Vec<u32>>, recorded: Option<u32>) -> Predicted {
+        let counts = counts.map(|it| it.into_iter().map(f64::from).collect::<Vec<f64>>());
+        let count_score = counts.zip(recorded).and_then(|(counts, it)| count_score(&counts, it));
+        Predicted { count_score, ..self }
     }
 
     /// Whether the recorded value lies outside of the interval.

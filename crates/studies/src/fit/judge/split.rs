@@ -13,6 +13,11 @@ const SETTLING: [f64; 2] = [10.0, 120.0];
 /// The scales of other models are fitted to the last so many seconds before the cut (ours).
 const SCALED: f64 = 600.0;
 
+/// A rollout from a snapshot takes so long [s] (ours).
+const SHORT: f64 = 40.0;
+/// No more snapshots are taken (ours).
+const MOST_SNAPSHOTS: usize = 24;
+
 /// A stretch of a recording that is simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
@@ -32,6 +37,8 @@ pub(super) struct Split {
     pub(super) before: Vec<Piece>,
     /// Pieces of the last third.
     pub(super) after: Vec<Piece>,
+    /// Short pieces of the last third, in which all vehicles become drivers where they were recorded.
+    pub(super) snapshots: Vec<Piece>,
 }
 
 impl Split {
@@ -40,7 +47,7 @@ impl Split {
         let settling = settling(sources);
         let total: f64 = sources.parts.iter().map(|it| seconds(&it.recording)).sum();
         let (mut left, mut fitted) = (FITTED * total, Vec::new());
-        let (mut before, mut after) = (Vec::new(), Vec::new());
+        let (mut before, mut after, mut snapshots) = (Vec::new(), Vec::new(), Vec::new());
         for (number, part) in sources.parts.iter().enumerate() {
             let Some((first, last)) = part.recording.frames() else { continue };
             let step = part.recording.step;
@@ -49,13 +56,16 @@ impl Split {
             let piece = |from: i64, until: i64| piece(number, step, settling, [first, from, until]);
             before.extend(piece(first.max(cut - (SCALED / step) as i64), cut));
             after.extend(piece(cut, last));
+            snapshots.extend(short_pieces(number, step, [cut, last]));
             if cut > first {
                 let recording = between(&part.recording, [first, cut]);
                 fitted.push(Part { recording, site: part.site });
             }
         }
         let maps = sources.sites.iter().map(|it| it.map.clone()).collect();
-        Split { fitted: Sources::of(maps, fitted), before, after }
+        let every = snapshots.len().div_ceil(MOST_SNAPSHOTS).max(1);
+        let snapshots = snapshots.into_iter().step_by(every).collect();
+        Split { fitted: Sources::of(maps, fitted), before, after, snapshots }
     }
 }
 
@@ -65,6 +75,13 @@ fn piece(part: usize, step: f64, settling: f64, [first, from, until]: [i64; 3]) 
     let from = from.max(first + settling);
     let is_long = (until - from) as f64 * step >= SHORTEST;
     is_long.then_some(Piece { part, release: from - settling, measured: [from, until] })
+}
+
+/// The short pieces between two frames of a recording, one after the other.
+fn short_pieces(part: usize, step: f64, [from, until]: [i64; 2]) -> impl Iterator<Item = Piece> {
+    let length = (SHORT / step).round() as i64;
+    let begins = (0..).map(move |it| from + it * length).take_while(move |it| it + length <= until);
+    begins.map(move |it| Piece { part, release: it, measured: [it, it + length] })
 }
 
 /// The time after which most vehicles that were there have gone [s]: that for which a vehicle is seen in the median.

@@ -7,7 +7,7 @@ use laneweave_models::change::Situation;
 use laneweave_network::{ChainIndex, LaneletIndex, Network, Position, Side};
 use laneweave_recorded::{Assumed, Replay};
 use laneweave_recordings::{
-    Extent, LaneChange, Matched, Place, RecordedChangeKind, Recording, extents, lane_changes,
+    Extent, LaneChange, Matched, Place, RecordedChangeKind, Recording, cut_ins, extents, lane_changes,
 };
 use laneweave_scenario::Fault;
 use laneweave_study::units::METRES_PER_KM;
@@ -30,12 +30,12 @@ const FAR: f64 = 100.0;
 
 /// Traffic in a section of a lane for some time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Section {
-    metres: f64,
-    seconds: f64,
+pub(super) struct Section {
+    pub(super) metres: f64,
+    pub(super) seconds: f64,
     /// Its length times the interval [m·s].
-    area: f64,
-    changes: u32,
+    pub(super) area: f64,
+    pub(super) changes: u32,
 }
 
 /// What was counted and measured.
@@ -50,6 +50,11 @@ pub(super) struct Tally {
     pub(super) gains: Vec<f64>,
     /// Gaps to the new leaders and to the new followers [m].
     pub(super) gaps: [Vec<f64>; 2],
+    /// Of cut-ins: headways of the followers [s], inverse times to collision [1/s], and the braking with which the
+    /// follower comes to the speed of the vehicle before it reaches it [m/s²].
+    pub(super) headways: Vec<f64>,
+    pub(super) inverse_times: Vec<f64>,
+    pub(super) needed_braking: Vec<f64>,
     /// Durations of lane changes that were seen as a whole [s].
     pub(super) durations: Vec<f64>,
     /// Times per distance of vehicles [s/km].
@@ -88,7 +93,13 @@ impl Tally {
                 self.durations.push(extent.ended - extent.began);
             }
         }
-        let changes: Vec<&LaneChange> = within.iter().map(|it| &all[*it]).collect();
+        let changes: Vec<LaneChange> = within.iter().map(|it| all[*it].clone()).collect();
+        for it in cut_ins(&matched, &changes) {
+            self.headways.push(it.headway());
+            self.inverse_times.push(it.inverse_time_to_collision());
+            self.needed_braking.push(it.needed_braking());
+        }
+        let changes: Vec<&LaneChange> = changes.iter().collect();
         self.add_motion(&matched, &changes, scope);
         self.add_situations(&matched, (&all, &changes), scope)
     }
@@ -207,14 +218,17 @@ impl Tally {
         })
     }
 
-    /// Lane changes per vehicle-kilometre by class of density.
-    pub(super) fn rates_by_density(&self, thirds: [f64; CLASSES - 1]) -> [Option<f64>; CLASSES] {
-        let mut sums = [(0, 0.0); CLASSES];
+    /// All traffic by class of density.
+    pub(super) fn by_density(&self, thirds: [f64; CLASSES - 1]) -> [Section; CLASSES] {
+        let mut sums = [Section::default(); CLASSES];
         for it in &self.sections {
             let sum = &mut sums[thirds.partition_point(|bound| *bound <= it.density())];
-            *sum = (sum.0 + it.changes, sum.1 + it.metres);
+            sum.changes += it.changes;
+            sum.metres += it.metres;
+            sum.seconds += it.seconds;
+            sum.area += it.area;
         }
-        sums.map(|(changes, metres)| rate(changes, metres))
+        sums
     }
 }
 

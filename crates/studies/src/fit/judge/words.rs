@@ -2,7 +2,25 @@
 
 use std::fmt::Write;
 
-use super::{Judged, JudgedMeasure, Predicted};
+use super::report::{Score, scores};
+use super::{Design, Judged, JudgedMeasure, Predicted};
+
+/// Widths of the columns: of names, of what was recorded, of the fitted style, and of other models.
+const NAME: usize = 40;
+const RECORDED: usize = 8;
+const FITTED: usize = 29;
+const OTHER: usize = 10;
+
+/// The keys of the measures whose scores are printed. The report has all of them.
+const SCORED: [&str; 7] = [
+    "changes",
+    "rate_by_density",
+    "duration_s",
+    "headway_p5_s",
+    "inverse_ttc_p95",
+    "speed_kmh",
+    "pace_s_per_km",
+];
 
 impl Judged {
     /// It in words.
@@ -14,10 +32,6 @@ impl Judged {
     }
 
     fn write_to(&self, out: &mut String) -> std::fmt::Result {
-        const NAME: usize = 40;
-        const RECORDED: usize = 8;
-        const FITTED: usize = 29;
-        const OTHER: usize = 10;
         writeln!(
             out,
             "\nIn the world: a style fitted to {:.0} s with {} lane changes drives in the {:.0} s after them,",
@@ -28,13 +42,37 @@ impl Judged {
             "in which {} lane changes were recorded; {} rollouts of each model, * not as recorded",
             self.events, self.rollouts
         )?;
-        write!(out, "  {:NAME$}{:>RECORDED$}", "", "recorded")?;
+        self.write_measures(out, &self.measures)?;
+        for (number, it) in self.models.iter().enumerate().skip(1) {
+            writeln!(out, "{} differs from the fitted style in: {}", it.model, self.differences(number))?;
+        }
+        let Design { simulations, simulated_s, events, measures } = &self.snapshots;
+        writeln!(
+            out,
+            "\nFrom {simulations} recorded snapshots, {simulated_s:.0} s with {events} lane changes"
+        )?;
+        self.write_measures(out, measures)?;
+        writeln!(out, "\nScores of the predictions, the less the better: CRPS, and of counts nats")?;
+        self.write_head(out, "", OTHER)?;
+        for (of, measures) in [("last third", &self.measures), ("snapshots", measures)] {
+            writeln!(out, "  {of}")?;
+            self.write_scores(out, measures)?;
+        }
+        Ok(())
+    }
+
+    fn write_head(&self, out: &mut String, recorded: &str, fitted: usize) -> std::fmt::Result {
+        write!(out, "  {:NAME$}{recorded:>RECORDED$}", "")?;
         for (number, it) in self.models.iter().enumerate() {
-            let width = if number == 0 { FITTED } else { OTHER };
+            let width = if number == 0 { fitted } else { OTHER };
             write!(out, "{:>width$}", it.model)?;
         }
-        writeln!(out)?;
-        for JudgedMeasure { name, recorded, simulated, .. } in &self.measures {
+        writeln!(out)
+    }
+
+    fn write_measures(&self, out: &mut String, measures: &[JudgedMeasure]) -> std::fmt::Result {
+        self.write_head(out, "recorded", FITTED)?;
+        for JudgedMeasure { name, recorded, simulated, .. } in measures {
             let recorded = recorded.map_or("–".to_owned(), |it| format!("{it:.2}"));
             write!(out, "  {name:NAME$}{recorded:>RECORDED$}")?;
             for (number, it) in simulated.iter().enumerate() {
@@ -45,8 +83,18 @@ impl Judged {
             }
             writeln!(out)?;
         }
-        for (number, it) in self.models.iter().enumerate().skip(1) {
-            writeln!(out, "{} differs from the fitted style in: {}", it.model, self.differences(number))?;
+        Ok(())
+    }
+
+    fn write_scores(&self, out: &mut String, measures: &[JudgedMeasure]) -> std::fmt::Result {
+        for Score { name, values, .. } in
+            scores(measures).iter().filter(|it| SCORED.contains(&it.key.as_str()))
+        {
+            write!(out, "  {name:NAME$}{:RECORDED$}", "")?;
+            for it in values {
+                write!(out, "{:>OTHER$}", it.map_or("–".to_owned(), |it| format!("{it:.2}")))?;
+            }
+            writeln!(out)?;
         }
         Ok(())
     }

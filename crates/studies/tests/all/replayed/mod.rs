@@ -1,6 +1,7 @@
 //! Recordings are replayed: vehicles drive as they were recorded, and drivers beside them react.
 
 mod as_recorded;
+mod beyond;
 mod collisions;
 mod desired;
 mod future;
