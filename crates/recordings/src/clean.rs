@@ -15,8 +15,9 @@ pub use report::{CleaningReport, Example, Finding};
 /// numbers that are not finite are left out, and further states of one frame. Single states far off the path are left
 /// out, too; where the path itself jumps, the track is split. Missing frames are interpolated up to 1 s; a longer gap
 /// splits the track. The first and last positions of a vehicle that was seen only in part, too far in view for any
-/// acceleration, are put where the motion after and before them says. A speed that contradicts the positions by more than 5 m/s is replaced by that of smoothed
-/// positions. A heading more than 45° off the direction of motion is replaced in the same way.
+/// acceleration, are put where the motion after and before them says. A speed that contradicts the positions by more
+/// than 5 m/s is replaced by that of smoothed positions. A heading more than 45° off the direction of motion is
+/// replaced in the same way.
 pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
     let mut report = CleaningReport {
         states: recording.tracks.iter().map(|it| it.states.len()).sum(),

@@ -64,8 +64,8 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "M", value_parser = number, allow_negative_numbers = true)]
     position_error: Option<f64>,
     /// Judge the fit in the world: fit a style to the first two thirds of the recorded time, too, and simulate the last
-    /// third with it N times, as a whole and from snapshots, beside a constant chance, MOBIL, LMRS and the built-in style
-    /// [default for N: 40].
+    /// third with it N times, as a whole and from snapshots, beside a constant chance, MOBIL, LMRS and the built-in
+    /// style [default for N: 40].
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "40", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     judge: Option<u32>,
     /// Seed of all random numbers.

@@ -12,6 +12,7 @@
 //! A [`Player`] puts recorded vehicles on the road, moves them and takes them off, between the steps. Its state is a
 //! `Playback`, which checkpoints hold. So explanations and branches take a replay like any run.
 
+mod asked;
 mod boundary;
 mod conflict;
 mod course;
@@ -29,9 +30,10 @@ use laneweave_recordings::{Matched, Recording, clean};
 use laneweave_sim::{Purpose, Random, RecordedVehicle, VehicleId, World};
 
 use crate::fault::Fault;
-use crate::recording::{elsewhere, open_recordings};
-use crate::scenario::{LONGEST, Origin, Replay, Scenario};
+use crate::recording::open_recordings;
+use crate::scenario::{Origin, Scenario};
 use crate::script::first_step_from;
+use asked::{check_numbers, check_place, chosen};
 use boundary::{Boundary, GoesOn};
 use part::Part;
 use playback::Presence;
@@ -39,9 +41,6 @@ use playback::Presence;
 pub(crate) use playback::Playback;
 pub use playback::{Departures, HandOver, Start};
 
-/// The seed of the random numbers that choose who reacts. It is always the same: so the same vehicles react whatever
-/// the seed of the run.
-const CHOICE: u64 = 1;
 /// A driver whose place is taken comes at most so far behind it [m] (ours).
 const BEHIND: f64 = 30.0;
 
@@ -258,8 +257,8 @@ impl Player {
         }
     }
 
-    /// Whether a driver is to be taken off the road, since it has left the view. Before, and for a while beyond, it is no
-    /// faster than vehicles were that left there.
+    /// Whether a driver is to be taken off the road, since it has left the view. Before, and for a while beyond, it is
+    /// no faster than vehicles were that left there.
     fn leaves_the_view(&self, presence: &mut Presence, id: VehicleId, world: &mut World) -> bool {
         let Some(vehicle) = world.vehicle(id) else { return false };
         presence.leaving = self.boundary.leaving(presence.leaving, &vehicle, world);
@@ -354,62 +353,4 @@ fn shift(recording: &mut Recording, first: i64) {
         track.states.iter_mut().for_each(|it| it.frame -= first);
     }
     recording.tracks.retain(|it| !it.states.is_empty());
-}
-
-/// The ids of the vehicles that are to become drivers.
-fn chosen(recording: &Recording, replay: &Replay, origin: &Origin) -> Result<BTreeSet<i64>, Fault> {
-    let vehicles: BTreeSet<i64> =
-        recording.tracks.iter().filter(|it| it.class.is_vehicle()).map(|it| it.id).collect();
-    if let Some(unknown) = replay.reactive_ids.iter().find(|it| !vehicles.contains(it)) {
-        let known: Vec<String> = vehicles.iter().take(10).map(i64::to_string).collect();
-        let place = origin.place(&["replay", "reactive_ids"]);
-        let what = format!("the recording has no motor vehicle {unknown}");
-        return Err(Fault::new(
-            place,
-            what,
-            format!("choose among its vehicles, such as {}", known.join(", ")),
-        ));
-    }
-    if !replay.reactive_ids.is_empty() {
-        return Ok(replay.reactive_ids.iter().copied().collect());
-    }
-    let random = Random::new(CHOICE);
-    let draw = |it: &i64| random.uniform(part::subject(*it), Purpose::Reaction, 0);
-    Ok(vehicles.into_iter().filter(|it| draw(it) < replay.reactive_share).collect())
-}
-
-fn check_numbers(replay: &Replay, origin: &Origin) -> Result<(), Fault> {
-    let check = |key, what: &str, value: f64, to: f64, unit: &str| {
-        if (0.0..=to).contains(&value) {
-            return Ok(());
-        }
-        let place = origin.place(&["replay", key]);
-        Err(Fault::new(place, format!("{what} of {value}{unit}"), format!("choose 0 to {to}{unit}")))
-    };
-    check("reactive_share", "a share", replay.reactive_share, 1.0, "")?;
-    check("reactive_from_s", "a time", replay.reactive_from_s, LONGEST, " s")?;
-    if replay.reactive_share > 0.0 && !replay.reactive_ids.is_empty() {
-        let place = origin.place(&["replay", "reactive_ids"]);
-        return Err(Fault::new(place, "ids and a share of the vehicles that react", "give only one of them"));
-    }
-    let is_reactive = replay.reactive_share > 0.0 || !replay.reactive_ids.is_empty();
-    if is_reactive && !replay.is_asked() {
-        let place = origin.place(&["replay"]);
-        return Err(Fault::new(
-            place,
-            "vehicles that react, of no recording",
-            "name it: recording = [\"FILE\"]",
-        ));
-    }
-    Ok(())
-}
-
-/// Checks that the recording is one of the place of the map.
-fn check_place(matched: &Matched, scenario: &Scenario) -> Result<(), Fault> {
-    let (states, unmatched) = matched.count_states();
-    if 2 * unmatched <= states {
-        return Ok(());
-    }
-    let problem = elsewhere(matched.recording, matched.network);
-    Err(Fault::new(scenario.map.display(), format!("{} {}", problem.element, problem.what), problem.remedy))
 }

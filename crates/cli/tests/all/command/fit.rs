@@ -148,8 +148,11 @@ fn a_fit_is_judged_beside_recorded_traffic_that_it_has_not_seen() {
     let judged = &FITTED.report["judged"];
     let models: Vec<&Value> =
         judged["models"].as_array().expect("a list").iter().map(|it| &it["model"]).collect();
-    assert_eq!(models, ["fitted", "null", "mobil", "lmrs"]);
+    assert_eq!(models, ["fitted", "null", "mobil", "lmrs", "default"]);
     assert!(number(&judged["fitted_s"]) > 190.0 && number(&judged["simulated_s"]) > 90.0, "{judged}");
+    let snapshots = &judged["snapshots"];
+    assert_eq!(snapshots["simulations"], 2, "100 s have two snapshots of 40 s");
+    assert!(snapshots["measures"].as_array().is_some_and(|it| !it.is_empty()));
     let measures = judged["measures"].as_array().expect("a list");
     let measure = |key: &str| measures.iter().find(|it| it["key"] == key).expect("it is measured");
     for key in ["rate", "faster_share_pct", "lead_gap_m", "duration_s", "speed_kmh", "pace_s_per_km"] {
@@ -159,18 +162,21 @@ fn a_fit_is_judged_beside_recorded_traffic_that_it_has_not_seen() {
             let interval = [&it["interval"][0], &it["interval"][1]].map(number);
             let median = number(&it["median"]);
             assert!(interval[0] <= median && median <= interval[1], "{key}: {it}");
+            assert!(
+                (number(&it["width"]) - (interval[1] - interval[0])).abs() < 1e-9
+                    && number(&it["crps"]) >= 0.0
+            );
         }
     }
-    // The true style, with the recorded demand: durations and speed are predicted, and the rate better than by a
+    // The true style, with the recorded demand: durations and speed are predicted, and rate and speed better than by a
     // constant chance.
     for key in ["duration_s", "speed_kmh"] {
         assert_eq!(measure(key)["simulated"][0]["recorded_is"], "inside", "{key}: {}", measure(key));
     }
-    let off = |model: usize| {
-        let rate = measure("rate");
-        (number(&rate["simulated"][model]["median"]) - number(&rate["recorded"])).abs()
-    };
-    assert!(off(0) < off(1), "{}", measure("rate"));
+    for key in ["rate", "speed_kmh"] {
+        let score = |model: usize| number(&measure(key)["simulated"][model]["crps"]);
+        assert!(score(0) < score(1), "{key}: {}", measure(key));
+    }
 }
 
 #[test]

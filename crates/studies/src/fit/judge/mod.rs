@@ -2,8 +2,8 @@
 //! beside what was recorded.
 //!
 //! The style is fitted to the first two thirds of the recorded time. In the last third vehicles come when, where and as
-//! fast as they came, drive on as drivers, and leave the view as fast as traffic did. A virtual drone sees them, so that
-//! recorded and simulated traffic are measured in the same way.
+//! fast as they came, drive on as drivers, and leave the view as fast as traffic did. A virtual drone sees them, so
+//! that recorded and simulated traffic are measured in the same way.
 //!
 //! There are two designs. In one, the last third is driven as a whole: an error grows, and a queue that comes from
 //! beyond the view has to be there. In the other, all vehicles become drivers where they were recorded, again and

@@ -6,9 +6,9 @@ use super::report::{Score, scores};
 use super::{Design, Judged, JudgedMeasure, Predicted};
 
 /// Widths of the columns: of names, of what was recorded, of the fitted style, and of other models.
-const NAME: usize = 40;
-const RECORDED: usize = 8;
-const FITTED: usize = 29;
+const NAME: usize = 44;
+const RECORDED: usize = 9;
+const FITTED: usize = 34;
 const OTHER: usize = 10;
 
 /// The keys of the measures whose scores are printed. The report has all of them.
