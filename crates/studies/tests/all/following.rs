@@ -90,7 +90,10 @@ fn recorded_drivers_who_were_not_seen_are_predicted_better_than_by_a_constant_sp
     let fit = followers.fit(&style, &FOLDS, 0).expect("many drivers follow");
     assert!(fit.is_converged);
     for it in &fit.scores {
-        assert_eq!(it.over_constant.verdict(), "better", "{it:?}");
+        // Within a second a driver comes as far as at its speed, whatever it does.
+        let expected = if it.after < 2.0 { "not distinguishable" } else { "better" };
+        assert_eq!(it.over_constant.verdict(), expected, "{it:?}");
+        assert!(it.fitted.speed < it.constant.speed, "{it:?}");
         assert!(it.fitted.distance < it.prior.distance && it.fitted.speed < it.prior.speed, "{it:?}");
     }
     let number = |parameter| fit.numbers.iter().find(|it| it.parameter == parameter).expect("it is fitted");
