@@ -2,6 +2,7 @@
 //!
 //! Their box is that of the part that is seen, so that its centre is too far in view.
 
+use super::motion::MOVING;
 use super::report::Noted;
 use crate::recording::State;
 use crate::smooth::elapsed;
@@ -12,8 +13,6 @@ const COMING: f64 = 0.2;
 const HARDEST: f64 = 12.0;
 /// Errors of positions are smaller than this [m] (ours).
 const ERROR: f64 = 0.5;
-/// Below this speed a motion has no direction [m/s].
-const MOVING: f64 = 2.0;
 
 /// Puts the first and last states of a track where the motion after and before them says, if their positions are too
 /// far in view.

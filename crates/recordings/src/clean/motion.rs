@@ -15,7 +15,7 @@ const SPEED_ERROR: f64 = 5.0;
 /// A heading contradicts the motion if it differs by more [rad].
 const HEADING_ERROR: f64 = FRAC_PI_4;
 /// Below this speed a motion has no direction [m/s].
-const MOVING: f64 = 2.0;
+pub(super) const MOVING: f64 = 2.0;
 /// Vehicles drive backwards up to this speed [m/s].
 const BACKING: f64 = 5.0;
 

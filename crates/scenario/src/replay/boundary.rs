@@ -22,19 +22,19 @@ const BEND: f64 = 0.3;
 const CELL: f64 = 5.0;
 /// Speeds count that were recorded so near to the end of the view [m] (ours).
 const NEAR: f64 = 30.0;
+/// Time for which they count [s], and the share of them that is not exceeded (ours).
+const MINUTE: f64 = 60.0;
+const SHARE: f64 = 0.85;
 /// Drivers see the end of the view from so far [m], and slow down for what is there with this braking [m/s²] (ours).
 const FAR: f64 = 300.0;
 const SLOWING: f64 = 1.5;
-/// Time for which they count [s], and the share of them that is not exceeded.
-const MINUTE: f64 = 60.0;
-const SHARE: f64 = 0.85;
 /// A driver goes on so far beyond the view [m] (ours).
 const BEYOND: f64 = 60.0;
 /// A driver is taken off so long before it comes to the end of a lane beyond the view [s] (ours).
 const BEFORE_END: f64 = 2.0;
 
 /// Where the view begins and ends.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Boundary {
     view: View,
     /// Its end in each chain that has been driven on; none, if the lane or the road goes on in view.
@@ -42,7 +42,7 @@ pub(super) struct Boundary {
 }
 
 /// The end of the view in a chain.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Exit {
     /// The last place where the centre of a vehicle was recorded [m].
     x: f64,
@@ -65,8 +65,10 @@ pub(super) struct Leaving {
 /// How a driver goes on near the end of the view, or beyond it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum GoesOn {
-    /// As it likes.
+    /// As it likes, as before.
     Freely,
+    /// As it likes: it has changed to a lane that goes on in view, and was slowed before.
+    FreelyAgain,
     /// No faster than this [m/s], on lanes of its choice in view, and in its lane beyond.
     AtMost(f64, Lateral),
     /// Not in sight.
@@ -98,7 +100,7 @@ impl Boundary {
     }
 
     /// The same for a simulation that begins `from_s` [s] after the first frame.
-    pub(super) fn from(mut self, from_s: f64) -> Boundary {
+    pub(super) fn beginning_at(mut self, from_s: f64) -> Boundary {
         let speeds = self.exits.values_mut().flatten().flat_map(|it| &mut it.speeds);
         speeds.for_each(|[time, _]| *time -= from_s);
         self
@@ -109,13 +111,30 @@ impl Boundary {
         !self.view.holds([pose.x, pose.y], pose.heading, -EDGE)
     }
 
+    /// How a driver goes on that was `leaving` the view in the last step, if it was. Notes where it is now.
+    pub(super) fn goes_on(&self, leaving: &mut Option<Leaving>, vehicle: &Vehicle, world: &World) -> GoesOn {
+        let was_slowed = leaving.is_some_and(|it| it.is_slowed);
+        *leaving = self.leaving(*leaving, vehicle, world);
+        let Some(leaving) = leaving else {
+            return if was_slowed { GoesOn::FreelyAgain } else { GoesOn::Freely };
+        };
+        let Some(exit) = self.exits.get(&leaving.exit).and_then(Option::as_ref) else {
+            return GoesOn::OutOfSight;
+        };
+        let (speed, recorded) = (vehicle.speed(), exit.speed(world.clock().time()));
+        if leaving.beyond > 0.0 {
+            let chain = world.network().chain(vehicle.spot.chain);
+            let ends = chain.following.is_empty() && chain.length - vehicle.x() < speed * BEFORE_END;
+            let is_there = !ends && leaving.beyond < BEYOND;
+            return if is_there { GoesOn::AtMost(recorded, Lateral::Keep) } else { GoesOn::OutOfSight };
+        }
+        let most = (recorded * recorded - 2.0 * SLOWING * leaving.beyond).sqrt();
+        leaving.is_slowed |= speed > most;
+        if leaving.is_slowed { GoesOn::AtMost(most, Lateral::Driver) } else { GoesOn::Freely }
+    }
+
     /// Where a driver that was `before` in the last step leaves the view, if it is near its end or beyond it.
-    pub(super) fn leaving(
-        &self,
-        before: Option<Leaving>,
-        vehicle: &Vehicle,
-        world: &World,
-    ) -> Option<Leaving> {
+    fn leaving(&self, before: Option<Leaving>, vehicle: &Vehicle, world: &World) -> Option<Leaving> {
         if let Some(before) = before.filter(|it| it.beyond > 0.0) {
             let beyond = before.beyond + vehicle.speed() * world.clock().dt;
             return Some(Leaving { beyond, ..before });
@@ -132,23 +151,6 @@ impl Boundary {
         };
         let is_slowed = before.is_some_and(|it| it.is_slowed);
         (is_slowed || beyond > -FAR).then_some(Leaving { exit, beyond, is_slowed })
-    }
-
-    /// How such a driver goes on.
-    pub(super) fn goes_on(&self, leaving: &mut Leaving, vehicle: &Vehicle, world: &World) -> GoesOn {
-        let Some(exit) = self.exits.get(&leaving.exit).and_then(Option::as_ref) else {
-            return GoesOn::OutOfSight;
-        };
-        let (speed, recorded) = (vehicle.speed(), exit.speed(world.clock().time()));
-        if leaving.beyond > 0.0 {
-            let chain = world.network().chain(vehicle.spot.chain);
-            let ends = chain.following.is_empty() && chain.length - vehicle.x() < speed * BEFORE_END;
-            let is_there = !ends && leaving.beyond < BEYOND;
-            return if is_there { GoesOn::AtMost(recorded, Lateral::Keep) } else { GoesOn::OutOfSight };
-        }
-        let most = (recorded * recorded - 2.0 * SLOWING * leaving.beyond).sqrt();
-        leaving.is_slowed |= speed > most;
-        if leaving.is_slowed { GoesOn::AtMost(most, Lateral::Driver) } else { GoesOn::Freely }
     }
 }
 

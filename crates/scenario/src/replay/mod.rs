@@ -82,8 +82,8 @@ pub struct Player {
     /// Time of the recording at which the simulation begins [s].
     from_s: f64,
     permitted: Arc<BTreeSet<[LaneletIndex; 2]>>,
-    at_its_end: AtItsEnd,
-    boundary: Arc<Boundary>,
+    /// Where drivers come into view and leave it; none: they leave when their records end.
+    boundary: Option<Arc<Boundary>>,
 }
 
 /// A recorded vehicle of a world.
@@ -132,12 +132,13 @@ impl Player {
         check_place(&matched, scenario)?;
         let shares = TurningShares::of(&matched, world.scene().navigator).into();
         let begin = (from_s / recording.step).round() as i64;
-        let boundary = Boundary::of(&matched).from(begin as f64 * recording.step);
+        let boundary = (at_its_end == AtItsEnd::DrivesOn)
+            .then(|| Boundary::of(&matched).beginning_at(begin as f64 * recording.step));
         shift(&mut recording, begin);
         let reactive = chosen(&recording, replay, origin)?;
         let from_step = first_step_from(replay.reactive_from_s, dt);
         let mut parts = part::parts(&recording, &reactive, dt);
-        if at_its_end == AtItsEnd::DrivesOn {
+        if let Some(boundary) = &boundary {
             let comes =
                 |it: &Part| it.first_step == 0 || !it.is_vehicle || boundary.is_entry(it.vehicle().pose);
             parts.retain(comes);
@@ -150,8 +151,7 @@ impl Player {
             duration_s: (last - first - begin) as f64 * recording.step,
             from_s: begin as f64 * recording.step,
             permitted: permitted.into(),
-            at_its_end,
-            boundary: boundary.into(),
+            boundary: boundary.map(Arc::new),
         }))
     }
 
@@ -239,34 +239,21 @@ impl Player {
             let Some(vehicle) = presence.vehicle.and_then(|it| world.vehicle(it)) else { continue };
             let (id, is_driver) = (vehicle.id(), !vehicle.is_on_its_own_path());
             let has_ended = part.last_step() < now;
-            let goes = match (presence.course, self.at_its_end) {
+            let goes = match (presence.course, &self.boundary) {
                 (Some(course), _) => has_ended && course.is_over(part.path()),
-                (None, AtItsEnd::DrivesOn) if is_driver => self.leaves_the_view(presence, id, world),
+                (None, Some(boundary)) if is_driver => leaves_the_view(boundary, presence, id, world),
                 (None, _) => has_ended,
             };
             if !goes {
                 continue;
             }
             world.remove_recorded(id);
-            if is_driver && self.at_its_end == AtItsEnd::Leaves {
+            if is_driver && self.boundary.is_none() {
                 departures.taken_off.push(part.recorded);
             }
             if presence.course.take().is_some() {
                 departures.end_hand_over(id, now);
             }
-        }
-    }
-
-    /// Whether a driver is to be taken off the road, since it has left the view. Before, and for a while beyond, it is
-    /// no faster than vehicles were that left there.
-    fn leaves_the_view(&self, presence: &mut Presence, id: VehicleId, world: &mut World) -> bool {
-        let Some(vehicle) = world.vehicle(id) else { return false };
-        presence.leaving = self.boundary.leaving(presence.leaving, &vehicle, world);
-        let Some(leaving) = &mut presence.leaving else { return false };
-        match self.boundary.goes_on(leaving, &vehicle, world) {
-            GoesOn::Freely => false,
-            GoesOn::AtMost(speed, lateral) => !world.limit_recorded(id, speed, lateral),
-            GoesOn::OutOfSight => true,
         }
     }
 
@@ -337,6 +324,18 @@ impl Player {
             let start = Start { recorded: part.recorded, vehicle: id, late_steps, behind_m, because_of };
             departures.starts.push(start);
         }
+    }
+}
+
+/// Whether a driver is to be taken off the road, since it has left the view. Before, and for a while beyond, it is no
+/// faster than vehicles were that left there.
+fn leaves_the_view(boundary: &Boundary, presence: &mut Presence, id: VehicleId, world: &mut World) -> bool {
+    let Some(vehicle) = world.vehicle(id) else { return false };
+    match boundary.goes_on(&mut presence.leaving, &vehicle, world) {
+        GoesOn::Freely => false,
+        GoesOn::FreelyAgain => !world.limit_recorded(id, None),
+        GoesOn::AtMost(speed, lateral) => !world.limit_recorded(id, Some((speed, lateral))),
+        GoesOn::OutOfSight => true,
     }
 }
 

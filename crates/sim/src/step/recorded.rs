@@ -156,10 +156,13 @@ impl World {
     }
 
     /// Lets a recorded vehicle that has become a driver drive no faster than this [m/s], from the next step on, and
-    /// change lanes so. Returns whether it can: not so if the number is not in its range, or if the vehicle has left
-    /// the road.
-    pub fn limit_recorded(&mut self, id: VehicleId, speed: f64, lateral: Lateral) -> bool {
-        let control = Control::Drive { longitudinal: Longitudinal::AtMost(speed), lateral };
+    /// change lanes so; none: as it likes. Returns whether it can: not so if the number is not in its range, or if the
+    /// vehicle has left the road.
+    pub fn limit_recorded(&mut self, id: VehicleId, limit: Option<(f64, Lateral)>) -> bool {
+        let control = limit.map_or(Control::DRIVER, |(speed, lateral)| Control::Drive {
+            longitudinal: Longitudinal::AtMost(speed),
+            lateral,
+        });
         if check_control(control).is_err() || self.vehicle(id).is_none() {
             return false;
         }

@@ -24,9 +24,9 @@ use laneweave_calibration::observe::{Begin, Observations, PLAIN};
 use laneweave_calibration::{Asked, Classes, Folds, PriorWeights, Study, by_paper};
 use laneweave_models::change::{LaneChangeModel, Mcdm};
 use laneweave_models::{Reading, Style};
-use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::MapOptions;
 use laneweave_scenario::style::{StyleTemplate, find};
+use laneweave_scenario::{Fault, Source};
 
 use following::with_following;
 use sources::Sources;
@@ -149,15 +149,13 @@ impl Request {
         self.lead.map_or(Begin::Auto, Begin::Lead)
     }
 
-    /// The text of the style from which a fit begins.
-    fn prior_text(&self) -> Result<String, Fault> {
-        Ok(find(&self.prior, Path::new("."), || "--prior".to_owned())?.text)
+    /// The style from which a fit begins, as it is written.
+    fn prior_source(&self) -> Result<Source, Fault> {
+        find(&self.prior, Path::new("."), || "--prior".to_owned())
     }
 
     fn prior_style(&self) -> Result<PriorStyle, Fault> {
-        let place = || "--prior".to_owned();
-        let source = find(&self.prior, Path::new("."), place)?;
-        let template = StyleTemplate::parse(&source)?;
+        let template = StyleTemplate::parse(&self.prior_source()?)?;
         let typical = template.typical().clone();
         let LaneChangeModel::Mcdm(model) = &typical.change else {
             let what = format!("{} does not decide by weighted incentives", self.prior);

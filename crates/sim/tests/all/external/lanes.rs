@@ -66,6 +66,22 @@ fn it_accelerates_and_brakes_as_it_is_told_and_never_drives_backwards() {
 }
 
 #[test]
+fn told_to_drive_at_most_so_fast_it_brakes_gently_and_is_slower_where_its_driver_is() {
+    let (mut world, ahead) = alone();
+    let behind = insert(&mut world, 1, 50.0, 25.0);
+    let speed = |world: &World| world.vehicle(behind).expect("it is on the road").speed();
+    drive(&mut world, behind, Longitudinal::AtMost(20.0), Lateral::Keep);
+    steps(&mut world, 10);
+    assert!((speed(&world) - 23.0).abs() < 1e-9, "it brakes with 2 m/s²: {}", speed(&world));
+    steps(&mut world, 50);
+    assert!((speed(&world) - 20.0).abs() < 1e-9, "{}", speed(&world));
+    // Behind a vehicle that stops its driver stops.
+    drive(&mut world, ahead, Longitudinal::Speed(0.0), Lateral::Keep);
+    steps(&mut world, 600);
+    assert!(speed(&world) < 0.1 && world.counters().collisions == 0, "{}", speed(&world));
+}
+
+#[test]
 fn it_changes_lanes_once_for_each_command() {
     let (mut world, id) = alone();
     let before = y(&world, id);

@@ -74,7 +74,7 @@ impl Observed {
         let shares = report.classes.iter().map(|it| it.share);
         let texts = report.styles.iter().map(|it| it.text.clone());
         let fitted = Drivers { styles: texts.zip(shares).collect(), draw: None };
-        let default = Drivers { styles: vec![(self.request.prior_text()?, 1.0)], draw: None };
+        let default = Drivers { styles: vec![(self.request.prior_source()?.text, 1.0)], draw: None };
         let advance = Advance::of(Contestant::simulations(rollouts, 2), show);
         let before = self.stages(&split.before, &fitted)?;
         let rate = before.recorded.rate().unwrap_or(0.0);

@@ -49,7 +49,7 @@ impl Judged {
         let Design { simulations, simulated_s, events, measures } = &self.snapshots;
         writeln!(
             out,
-            "\nFrom {simulations} recorded snapshots, {simulated_s:.0} s with {events} lane changes"
+            "\nRollouts from recorded snapshots: {simulations}, {simulated_s:.0} s with {events} lane changes"
         )?;
         self.write_measures(out, measures)?;
         writeln!(out, "\nScores of the predictions, the less the better: CRPS, and of counts nats")?;
