@@ -19,8 +19,6 @@ use draws::Draws;
 const PROVENANCE: &str = "fit";
 /// Number of different drivers of a style with distributions.
 const CHARACTERS: u32 = 512;
-/// Maximum number of different random numbers for the parameters of one style.
-const PARAMETERS_PER_STYLE: u32 = 1 << 12;
 
 /// A style before its drivers are drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,11 +36,16 @@ pub struct Parameter {
     pub path: Vec<String>,
     /// Its distribution.
     pub distribution: Distribution,
-    /// The index of its random number in the style.
+    /// Which random number of a driver is its own: it depends on the key alone, so that no other key moves it.
     number: u32,
 }
 
 impl Parameter {
+    fn new(path: Vec<String>, distribution: Distribution) -> Parameter {
+        let number = fnv_1a(path.join(".").as_bytes());
+        Parameter { path, distribution, number }
+    }
+
     /// Its key in a style file.
     fn key(&self) -> String {
         self.path.join(".")
@@ -171,18 +174,7 @@ impl StyleTemplate {
         let source = Source { path: self.typical.name.clone().into(), text };
         let changed =
             StyleTemplate::parse(&source).map_err(|fault| Fault { place: place.into(), ..fault })?;
-        let number =
-            |it: &Parameter| self.parameters.iter().find(|own| own.path == it.path).map(|own| own.number);
-        let mut next = self.parameters.iter().map(|it| it.number + 1).max().unwrap_or(0);
-        let renumbered = changed.parameters.iter().map(|it| {
-            let number = number(it).unwrap_or_else(|| {
-                next += 1;
-                next - 1
-            });
-            Parameter { number, ..it.clone() }
-        });
-        let parameters = renumbered.collect();
-        Ok(StyleTemplate { parameters, draws: self.draws.clone(), ..changed })
+        Ok(StyleTemplate { draws: self.draws.clone(), ..changed })
     }
 
     /// The typical driver, but with `value` for its distributed numbers; `None` if one of them is in no list.
@@ -200,8 +192,8 @@ impl StyleTemplate {
     /// Only if a random value is invalid at its key; reading the file excludes this.
     pub fn draw(&self, random: &Random, style: u32, number: u32) -> Result<Style, Fault> {
         let value = |it: &Parameter| {
-            let draw = style * PARAMETERS_PER_STYLE + it.number;
-            it.distribution.value(random.uniform(number, Purpose::Parameter, draw))
+            let driver = style * CHARACTERS + number;
+            it.distribution.value(random.uniform(driver, Purpose::Parameter, it.number))
         };
         if let Some(drawn) = self.typical_with(value) {
             return Ok(drawn);
@@ -211,6 +203,13 @@ impl StyleTemplate {
             Fault::new(&self.typical.name, error.message(), "check the distributions of the style")
         })
     }
+}
+
+/// The hash of Fowler, Noll and Vo, FNV-1a with 32 bits: the same on every machine and in every release.
+fn fnv_1a(bytes: &[u8]) -> u32 {
+    const OFFSET: u32 = 0x811C_9DC5;
+    const PRIME: u32 = 0x0100_0193;
+    bytes.iter().fold(OFFSET, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(PRIME))
 }
 
 /// Puts `value` at `path`.
@@ -330,8 +329,7 @@ impl Reader<'_> {
             let what = format!("{} ranges from {least} to {largest}", self.key());
             return Err(self.fault(what, format!("set its min and max: {}", range.advice())));
         }
-        let number = self.parameters.len() as u32;
-        self.parameters.push(Parameter { path: self.path.clone(), distribution, number });
+        self.parameters.push(Parameter::new(self.path.clone(), distribution));
         Ok(())
     }
 

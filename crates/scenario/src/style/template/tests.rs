@@ -43,6 +43,32 @@ fn draws_depend_on_seed_style_and_number_only() {
 }
 
 #[test]
+fn a_distribution_for_one_key_leaves_the_draws_of_the_others_unchanged() {
+    let text = built_in("conservative").unwrap().text;
+    let time_gap = "time_gap = { distribution = \"uniform\", low = 1.0, high = 1.4 }";
+    let own = text.replace("time_gap = 1.2", time_gap);
+    let own = StyleTemplate::parse(&Source { path: "own".into(), text: own }).unwrap();
+    let time_gap = models::Parameter::TimeGap;
+    let usual = template("conservative");
+    assert!(own.parameters().len() > usual.parameters().len() && usual.parameters().len() > 1);
+    for number in 0..512 {
+        let [mut with, without] = [&own, &usual].map(|it| it.draw(&Random::new(1), 3, number).unwrap());
+        assert_ne!(time_gap.value(&with), time_gap.value(&without));
+        *time_gap.place(&mut with).unwrap() = 1.2;
+        assert_eq!(with, without);
+    }
+}
+
+#[test]
+fn the_number_of_a_key_is_that_of_every_release_and_no_other_key_has_it() {
+    // The test vectors of FNV-1a's authors.
+    assert_eq!([&b""[..], b"a", b"foobar"].map(fnv_1a), [0x811c_9dc5, 0xe40c_292c, 0xbf9c_f968]);
+    let numbers: BTreeSet<u32> =
+        models::Parameter::ALL.iter().map(|it| fnv_1a(it.key().as_bytes())).collect();
+    assert_eq!(numbers.len(), models::Parameter::ALL.len());
+}
+
+#[test]
 fn several_parameters_are_drawn_independently_of_each_other() {
     let text = built_in("conservative").unwrap().text.replace(
         "time_gap = 1.2",
