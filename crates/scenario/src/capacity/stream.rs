@@ -101,7 +101,7 @@ impl<'a> Mixture<'a> {
         let time = |it: &Kind| {
             let free = Pace::new(0.0, it.desired);
             let acceleration = it.style.follow.acceleration(free, None).min(it.class.strength());
-            (2.0 * (it.class.body().length + it.style.safety.min_gap) / acceleration).sqrt()
+            (2.0 * (it.class.body().length + it.style.follow.jam_gap()) / acceleration).sqrt()
         };
         1.0 / self.mean(time)
     }

@@ -87,7 +87,9 @@ fn held(world: &World, queue: &Queue) -> Option<Held> {
     match entry(&scene, queue, first, world.clock(), &mut Survey::default()) {
         Entry::Refused(PassHindrance::Light) => return Some(Held::RedLight),
         Entry::Refused(PassHindrance::Sign | PassHindrance::Others) => return Some(Held::Priority),
-        Entry::Refused(PassHindrance::Space | PassHindrance::Roundabout) => return Some(Held::Space),
+        Entry::Refused(PassHindrance::Space | PassHindrance::Roundabout | PassHindrance::Blocked) => {
+            return Some(Held::Space);
+        }
         Entry::Free | Entry::Reserved { .. } => {}
     }
     let from = scene.viewpoint_at(applicant(&scene, queue, first).from, queue.chain, queue.start.station());
@@ -109,7 +111,7 @@ fn why_head_stands(world: &World, scene: &Scene, spot: Spot) -> Held {
         Ok(()) => Held::Queue,
         Err(PassHindrance::Light) => Held::RedLight,
         Err(PassHindrance::Sign | PassHindrance::Others) => Held::Priority,
-        Err(PassHindrance::Space | PassHindrance::Roundabout) => Held::Space,
+        Err(PassHindrance::Space | PassHindrance::Roundabout | PassHindrance::Blocked) => Held::Space,
     }
 }
 

@@ -118,7 +118,7 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
         Err(PassHindrance::Sign) => return StandsFor::StopSign,
         Err(PassHindrance::Space) => JunctionHindrance::Space,
         Err(PassHindrance::Roundabout) => JunctionHindrance::Roundabout,
-        Err(PassHindrance::Others) => JunctionHindrance::Others,
+        Err(PassHindrance::Others | PassHindrance::Blocked) => JunctionHindrance::Others,
     };
     let zones = &scene.network.junctions.zones;
     let areas =

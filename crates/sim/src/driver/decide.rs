@@ -4,7 +4,7 @@ use laneweave_models::change::deceleration_to_avoid;
 use laneweave_network::ChainIndex;
 
 use crate::driver::consider::consider;
-use crate::driver::gap::{Hindrance, ROOM_TO_YIELD, gap};
+use crate::driver::gap::{Hindrance, gap, room_to_yield};
 use crate::driver::plan::{Ask, Outbox, Plan, Request};
 use crate::state::lane::Phase;
 use crate::state::moment::Moment;
@@ -73,11 +73,12 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
         Err(_) => {
             if let Some(found) = gap.who_can_let_in(scene, spot) {
                 let behind = scene.motion(found.spot);
+                let room = room_to_yield(scene, spot, found.spot);
                 outbox.requests.push(request(Ask::LetIn {
                     follower: behind.id,
                     chain: found.spot.chain,
                     x: behind.x,
-                    gap: (found.distance - f64::from(motion.length) - ROOM_TO_YIELD) as f32,
+                    gap: (found.distance - f64::from(motion.length) - room) as f32,
                     speed: motion.speed as f32,
                 }));
             }

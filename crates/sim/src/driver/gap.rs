@@ -24,8 +24,8 @@ use crate::view::scene::{Found, Scene, Spot, Viewpoint};
 const TO_BRAKE: f64 = 0.5;
 /// Desire that counts for the accepted time gap in a discretionary change (ours).
 const VOLUNTARY_DESIRE: f64 = 0.3;
-/// A driver who lets another in leaves this much beyond its usual gap [m].
-pub(crate) const ROOM_TO_YIELD: f64 = 1.0;
+/// A driver who lets another in leaves this much beyond the critical lag gap of that one [m].
+const ROOM_TO_YIELD: f64 = 1.0;
 
 /// Why a driver who wants to change does not go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,6 +140,16 @@ impl<'a> Pairing<'a> {
         let time = if follower.comfortable > 0.0 { dt.max(TO_BRAKE) } else { dt };
         safety.accept(pair, time).map_err(|why| (why, pair))
     }
+}
+
+/// Gap that the driver at `spot` is left by one who lets it in [m].
+fn room_to_let_in(scene: &Scene, spot: Spot) -> f64 {
+    scene.style(spot).safety.of_follower().min_gap + ROOM_TO_YIELD
+}
+
+/// How much of that the driver at `follower` leaves beyond its own gap at standstill [m].
+pub(crate) fn room_to_yield(scene: &Scene, spot: Spot, follower: Spot) -> f64 {
+    (room_to_let_in(scene, spot) - scene.style(follower).follow.jam_gap()).max(0.0)
 }
 
 impl Gap {
@@ -280,14 +290,15 @@ impl Gap {
         /// This many followers see the signal.
         const SEE_IT: usize = 10;
         let motion = scene.motion(spot);
-        let room = scene.style(spot).safety.of_follower().min_gap + ROOM_TO_YIELD;
+        let room = room_to_let_in(scene, spot);
         let can = |it: &Found| {
             let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
             let gentle = scene.style_of(driver).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
             // A vehicle beside a standing one, or right behind it, cannot open a gap for it.
             let is_beside = gap < room && motion.speed <= STANDSTILL;
-            let needed = deceleration_to_avoid((gap - ROOM_TO_YIELD).max(0.1), behind.speed, motion.speed);
+            let left = (gap - room_to_yield(scene, spot, it.spot)).max(0.1);
+            let needed = deceleration_to_avoid(left, behind.speed, motion.speed);
             // A driver with a reservation lets in nobody: no vehicle may come in front of it.
             let is_free = !scene.has_reservation(it.spot, gap);
             driver.phase == Phase::Cruises && is_free && gentle > 0.0 && !is_beside && needed <= gentle

@@ -81,7 +81,7 @@ pub(crate) fn request_reservations(
                 survey_at(scene, &applicant, |_, _| false, &mut outbox.survey);
                 request_space(scene, spot, asking.priority, outbox);
             }
-            Err(PassHindrance::Light | PassHindrance::Sign) => {}
+            Err(PassHindrance::Light | PassHindrance::Sign | PassHindrance::Blocked) => {}
         }
     }
 }

@@ -98,6 +98,6 @@ fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocke
             if was_green { Blocker::Light } else { Blocker::Other }
         }
         Ok(()) => Blocker::Nothing,
-        Err(PassHindrance::Sign | PassHindrance::Others) => Blocker::Other,
+        Err(PassHindrance::Sign | PassHindrance::Blocked | PassHindrance::Others) => Blocker::Other,
     }
 }

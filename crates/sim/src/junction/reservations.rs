@@ -51,6 +51,8 @@ pub(crate) struct Reservation {
     pub(crate) holds: Vec<ZoneReservation>,
     lights: Vec<(LightIndex, f64)>,
     kept_spaces: Vec<KeptSpace>,
+    /// It goes in a wait cycle, without storage space for all of its length: it may have to stand within zones.
+    pub(crate) lacks_space: bool,
 }
 
 /// Storage space reserved for a vehicle beyond the zones.
@@ -201,6 +203,7 @@ impl Reservations {
         let reservation = &mut self.given[slot as usize];
         let base = reservation.travelled;
         reservation.extent = base + survey.extent;
+        reservation.lacks_space = false;
         for hold in &survey.holds {
             let hold = ZoneReservation { enter: base + hold.enter, leave: base + hold.leave, ..*hold };
             reservation.holds.push(hold);
@@ -268,10 +271,12 @@ impl Reservations {
         self.given[slot as usize].since
     }
 
-    /// The vehicle of the reservation in `slot` passes, whatever the lights show from now on: other vehicles were
-    /// granted reservations that rely on it.
-    pub(crate) fn make_certain(&mut self, slot: u32) {
-        self.given[slot as usize].lights.clear();
+    /// The vehicle of the reservation in `slot` goes in a wait cycle: whatever the lights show from now on, as other
+    /// vehicles were granted reservations that rely on it, and before there is storage space for it.
+    pub(crate) fn goes_in_wait_cycle(&mut self, slot: u32) {
+        let reservation = &mut self.given[slot as usize];
+        reservation.lights.clear();
+        reservation.lacks_space = true;
     }
 
     /// Revokes the part of a reservation that lies beyond `distance` from its beginning [m].

@@ -27,6 +27,9 @@ pub(crate) enum PassHindrance {
     Space,
     /// It would fill a roundabout.
     Roundabout,
+    /// A vehicle that lacks storage space may have to stand within its zones. Nobody knows for how long, so it has no
+    /// turn there.
+    Blocked,
     /// Others go first; it waits for its turn.
     Others,
 }
@@ -100,6 +103,9 @@ pub(crate) fn may_pass(
     if lacks(0.0) || yields_room() {
         return Err(PassHindrance::Space);
     }
+    if survey.holds.iter().any(|hold| is_blocked(scene, hold, asking)) {
+        return Err(PassHindrance::Blocked);
+    }
     if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking)) {
         Ok(())
     } else {
@@ -114,6 +120,15 @@ fn gives_way(scene: &Scene, hold: &ZoneReservation) -> bool {
     let passes = || scene.reservations.order(hold.zone).any(|(it, _)| it.side == side);
     let comes = || lag(scene, hold.zone, &zone.sides[usize::from(side)]) < f64::INFINITY;
     zone.precedence == Precedence::Side(side) && (waits() || passes() || comes())
+}
+
+/// Whether a vehicle that lacks storage space may have to stand within a crossing, in the way of the other side.
+fn is_blocked(scene: &Scene, hold: &ZoneReservation, asking: Asking) -> bool {
+    let zone = &scene.network.junctions.zones[hold.zone.at()];
+    let touch = |other: &Reservation| zone.touch.is_of([asking.priority.is_long, other.length >= LONG]);
+    let mut others = scene.reservations.order(hold.zone);
+    zone.kind == ZoneKind::Crossing
+        && others.any(|(it, other)| it.side != hold.side && other.lacks_space && touch(other))
 }
 
 fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
@@ -156,7 +171,7 @@ fn goes_first(precedence: Precedence, other_side: u8, priority: WaitingPriority,
 /// Whether the gap behind `other`, which goes first into the merge, is large enough.
 fn follows(applicant: &Applicant, hold: &ZoneReservation, other: &Reservation, dt: f64) -> bool {
     let Some(ahead) = leader_into(hold.leave, hold, other) else { return true };
-    ahead.gap >= applicant.style.safety.min_gap && is_secure(applicant.speed, ahead, dt)
+    ahead.gap >= applicant.style.follow.jam_gap() && is_secure(applicant.speed, ahead, dt)
 }
 
 /// The nearest vehicle that goes first into a surveyed merge, as the applicant would follow it.

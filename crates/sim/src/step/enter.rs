@@ -116,7 +116,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
         Start::FromRest(_) => {
             let leaves_room = ahead.is_none_or(|it| it.gap >= room_to_start(style, it));
             let follower = scene.follower(from);
-            let is_let_in = follower.is_none_or(|it| lets_start(scene, &it, style.safety.min_gap, dt));
+            let is_let_in = follower.is_none_or(|it| lets_start(scene, &it, dt));
             // Storage space that is kept for others stays free.
             let is_free = scene.reservations.kept_on(queue.section(scene.network)) == 0.0;
             (leaves_room && is_let_in && is_free).then_some(0.0)?
@@ -136,7 +136,7 @@ fn entry_speed(style: &Style, desired: f64, ahead: Option<Ahead>, dt: f64) -> Op
         let behind = |gap| style.follow.acceleration(Pace::new(speed, desired), Some(Ahead { gap, ..ahead }));
         // A driver who would have to brake at once delays those behind. Some models brake even on a free road.
         let least = behind(FAR).min(0.0);
-        ahead.gap >= style.safety.min_gap && behind(ahead.gap) >= least && is_secure(speed, ahead, dt)
+        ahead.gap >= style.follow.jam_gap() && behind(ahead.gap) >= least && is_secure(speed, ahead, dt)
     };
     if fits(fastest) {
         return Some(fastest);
@@ -180,12 +180,12 @@ fn room_to_start(style: &Style, ahead: Ahead) -> f64 {
     /// A vehicle slower than this stands in a queue [m/s], and this distance to a queue is kept free [m]; ours.
     const QUEUES: f64 = 2.0;
     const WAY_TO_A_QUEUE: f64 = 30.0;
-    if ahead.speed < QUEUES { WAY_TO_A_QUEUE } else { style.safety.min_gap }
+    if ahead.speed < QUEUES { WAY_TO_A_QUEUE } else { style.follow.jam_gap() }
 }
 
 /// Whether a vehicle may start from rest in front of `follower`. The gap must be secure, and neither the follower's
 /// model nor kinematics may require more than moderate braking.
-fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
+fn lets_start(scene: &Scene, follower: &Found, dt: f64) -> bool {
     /// Braking that a driver may expect of its follower [m/s²] (ours).
     const MODERATE: f64 = 2.0;
     if scene.has_reservation(follower.spot, follower.distance) {
@@ -193,7 +193,7 @@ fn lets_start(scene: &Scene, follower: &Found, min_gap: f64, dt: f64) -> bool {
     }
     let behind = driver_of(scene, follower.spot);
     let ahead = Ahead::standing(follower.distance);
-    ahead.gap >= min_gap
+    ahead.gap >= behind.follow.jam_gap()
         && is_secure(behind.pace.speed, ahead, dt)
         && deceleration_to_avoid(ahead.gap, behind.pace.speed, 0.0) <= MODERATE
         && behind.follow.acceleration(behind.pace, Some(ahead)) >= -MODERATE

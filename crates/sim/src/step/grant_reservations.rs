@@ -19,10 +19,6 @@ use crate::step::wait_cycles::open_wait_cycles;
 use crate::step::work::Work;
 use crate::view::scene::{Scene, Spot};
 
-/// In a wait cycle, a vehicle may stand within zones by this length until those before it have moved up [m]: a truck
-/// takes the place of a car (ours).
-const HANGS_OUT: f64 = 8.0;
-
 /// Advances the reservations of vehicles that drove on. The zones behind them become free for others.
 pub(crate) fn advance_reservations(junctions: &mut JunctionState, work: &mut Work) {
     let (reservations, progress) = (junctions.reservations_mut(), &mut work.outbox().progress);
@@ -114,7 +110,9 @@ impl Granting<'_> {
     }
 
     /// Surveys again, and checks whether the driver at `spot` may pass if the vehicle at `next` drives off and leaves
-    /// its place. A driver who then stands within a merge blocks only those that come after it.
+    /// its place. Then there has to be space for the front of its vehicle. The rest of it may stand within the zones
+    /// until those before it have moved up, as where a truck takes the place of a car (ours). A driver who stands
+    /// within a merge blocks only those that come after it.
     pub(super) fn may_after(&self, spot: Spot, asking: Asking, next: Spot, survey: &mut Survey) -> bool {
         let scene = self.scene();
         let applicant = Applicant::at(&scene, spot);
@@ -122,11 +120,11 @@ impl Granting<'_> {
             return false;
         }
         let is_freed = stands_beyond(&scene, scene.viewpoint(spot), survey, next);
-        let space = survey.space + f64::from(scene.motion(next).length) + SPARE_SPACE + HANGS_OUT;
+        let space = survey.space + f64::from(scene.motion(next).length) + SPARE_SPACE;
         let is_merge = |it: &ZoneReservation| {
             matches!(scene.network.junctions.zones[it.zone.at()].kind, ZoneKind::Merging(_))
         };
-        let fits = space >= survey.needed - asking.squeezes_into() || survey.holds.iter().all(is_merge);
+        let fits = space >= -asking.squeezes_into() || survey.holds.iter().all(is_merge);
         survey.space = f64::INFINITY;
         is_freed && fits && may_pass(&scene, &applicant, survey, asking).is_ok()
     }

@@ -49,7 +49,7 @@ fn let_go_together(granting: &mut Granting, members: &[(Spot, ReservationRequest
         for (spot, request) in members {
             granting.grant_surveyed(*spot, request.since, survey);
             let slot = granting.traffic.lane(spot.chain).lane_change_states()[spot.index].reservation;
-            granting.junctions.reservations_mut().make_certain(slot);
+            granting.junctions.reservations_mut().goes_in_wait_cycle(slot);
         }
     }
 }
@@ -101,14 +101,4 @@ fn wait_cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rings_are_found_wherever_one_begins_to_look() {
-        // 0 → 1 → 2 → 1, 3 → 4 → 3, 5 → none, 6 → itself.
-        let next = [Some(1), Some(2), Some(1), Some(4), Some(3), None, Some(6)];
-        assert_eq!(wait_cycles(&next), [vec![1, 2], vec![3, 4], vec![6]]);
-        assert_eq!(wait_cycles(&[None, None]), Vec::<Vec<usize>>::new());
-    }
-}
+mod tests;

@@ -4,7 +4,7 @@ use crate::roads::{Road, drivers};
 use laneweave_generate::{Motorway, motorway as draw_motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{
-    Comfort, ConstantHazard, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency,
+    Comfort, ConstantHazard, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Safety, Speed, Urgency,
 };
 use laneweave_models::follow::{FollowingModel, Fvdm, Pace};
 use laneweave_models::{Manner, Reading};
@@ -315,6 +315,11 @@ const PASSING: usize = 60;
 
 /// A truck stands at the end of its lane, beside a dense row of `passing` drivers. The first of them is beside it.
 fn truck_beside(passing: Style) -> World {
+    truck_of(drivers::conservative(), passing)
+}
+
+/// The same, with a driver of the truck who is `waiting` there.
+fn truck_of(waiting: Style, passing: Style) -> World {
     let plan = Motorway {
         lanes: 2,
         lane_drop_at: Some(END),
@@ -325,8 +330,8 @@ fn truck_beside(passing: Style) -> World {
     let network = draw_motorway(&plan).expect("a road").build().expect("a network").network;
     let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
     let setup = Setup { step: 0.1, seed: 1, threads: 1 };
-    let mut world = World::new(network, vec![drivers::conservative(), passing], nobody, setup)
-        .expect("the set-up makes sense");
+    let mut world =
+        World::new(network, vec![waiting, passing], nobody, setup).expect("the set-up makes sense");
     let mut put = |chain, x, speed, class, parameters| {
         world
             .place(Placement { chain, x, speed, class, parameters, destination: Some(0) })
@@ -363,4 +368,14 @@ fn where_nobody_lets_others_in_it_waits_for_the_last_to_pass() {
     let (time, _) = wait(truck_beside(Style { manner, ..drivers::conservative() }));
     let last_passes = PASSING as f64 * 30.0 / SPEED;
     assert!(time > last_passes, "{time} s");
+}
+
+#[test]
+fn who_accepts_only_a_long_gap_behind_is_left_one_by_who_lets_it_in() {
+    // More than the 3 m that are left to others.
+    let safety = Safety { min_lag_gap: 6.0, ..Safety::default() };
+    let (time, hardest) =
+        wait(truck_of(Style { safety, ..drivers::conservative() }, drivers::conservative()));
+    assert!(time < 30.0, "{time} s");
+    assert!(hardest < 2.5, "{hardest} m/s²");
 }

@@ -56,6 +56,19 @@ fn room_is_kept_beyond_the_zone_until_the_vehicle_is_there() {
 }
 
 #[test]
+fn who_goes_in_a_wait_cycle_lacks_space_until_it_is_granted_more() {
+    let mut reservations = of_one_zone();
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
+    let lacks_space = |it: &Reservations| it.of(slot, 7).map(|it| it.lacks_space);
+    assert_eq!(lacks_space(&reservations), Some(false));
+    reservations.goes_in_wait_cycle(slot);
+    reservations.advance(slot, 9.0, 3.0, 14.0);
+    assert_eq!(lacks_space(&reservations), Some(true));
+    reservations.grant(slot, 7, LENGTH, &over_the_zone(0));
+    assert_eq!(lacks_space(&reservations), Some(false));
+}
+
+#[test]
 fn a_reservation_can_be_given_back_from_a_place_on() {
     let mut reservations = of_one_zone();
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
@@ -87,7 +100,7 @@ fn what_a_light_can_take_back_is_not_certain() {
     assert_eq!(left(&reservations, slot), Some(9.5));
     reservations.end(slot, 7);
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &within);
-    reservations.make_certain(slot);
+    reservations.goes_in_wait_cycle(slot);
     assert_eq!(left(&reservations, slot), Some(19.5));
 }
 
