@@ -7,6 +7,7 @@ mod capacity;
 mod checkpoint;
 mod circles;
 mod crates;
+mod cut_ins;
 mod door;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;

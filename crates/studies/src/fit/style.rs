@@ -81,6 +81,8 @@ fn text_of(
     if let Some(limits) = report.gap_limits {
         let numbers = [
             ("min_gap", limits.min_gap_m),
+            // One limit is fitted for both gaps.
+            ("min_lag_gap", 0.0),
             ("min_time_to_collision", limits.min_time_to_collision_s),
             ("max_deceleration", limits.max_deceleration_mps2),
         ];

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use laneweave_models::change::{Courtesy, Mcdm, Rule};
+use laneweave_models::change::{Courtesy, Mcdm, Rule, Safety};
 use laneweave_models::follow::FollowingModel;
 use laneweave_models::{Alertness, Attention, Manner, Reading};
 
@@ -78,7 +78,16 @@ fn several_parameters_are_drawn_independently_of_each_other() {
     let paths: Vec<String> = template.parameters().iter().map(|it| it.path.join(".")).collect();
     assert_eq!(
         paths,
-        ["follow.time_gap", "manner.change_duration", "manner.pressed_duration", "speed_factor"]
+        [
+            "follow.time_gap",
+            "manner.change_duration",
+            "manner.pressed_duration",
+            "safety.max_deceleration",
+            "safety.min_gap",
+            "safety.min_lag_gap",
+            "safety.min_time_to_collision",
+            "speed_factor"
+        ]
     );
     let pairs: Vec<(f64, f64)> = (0..512)
         .map(|number| template.draw(&Random::new(1), 0, number).unwrap())
@@ -270,4 +279,38 @@ fn a_driver_is_drawn_as_if_the_file_had_its_numbers() {
         let filled = fill(&template.table, &template.parameters, value).unwrap();
         assert_eq!(template.typical_with(value), Some(filled), "{}", built_in.name);
     }
+}
+
+/// Drivers of the built-in style `name`.
+fn drawn(name: &str) -> Vec<Style> {
+    let template = template(name);
+    (0..template.driver_parameters()).map(|it| template.draw(&Random::new(1), 0, it).unwrap()).collect()
+}
+
+#[test]
+fn what_gaps_are_accepted_differs_between_drivers_but_not_in_the_styles_of_the_paper() {
+    for name in ["paper-aggressive", "paper-conservative"] {
+        assert!(drawn(name).iter().all(|it| it.safety == Safety::default()), "{name}");
+    }
+    for name in ["aggressive", "altruistic", "cautious", "conservative", "egoistic", "inattentive", "mobil"] {
+        let (drivers, typical) = (drawn(name), template(name).typical().clone());
+        assert_eq!(drivers.len(), 512);
+        let keys = [
+            models::Parameter::MinGap,
+            models::Parameter::MinLagGap,
+            models::Parameter::MinTimeToCollision,
+            models::Parameter::MaxDeceleration,
+        ];
+        for key in keys {
+            let median = key.value(&typical).unwrap();
+            let below = drivers.iter().filter(|it| key.value(it).unwrap() < median).count();
+            // Three standard errors of a half.
+            assert!((222..=290).contains(&below), "{name}: {below} by {}", key.key());
+        }
+        assert!(drivers.iter().all(|it| it.manner.misperception == 0.0), "{name}");
+    }
+    // ln 1.5 lies (ln 3.2 − σ²/2 − ln 1.5)/σ = 1.91 below the mean of the logarithms, with σ² = ln(1 + (1.2/3.2)²):
+    // 2.8 % of 512 drivers, within three standard errors.
+    let hasty = drawn("conservative").iter().filter(|it| it.safety.min_time_to_collision < 1.5).count();
+    assert!((3..=26).contains(&hasty), "{hasty}");
 }

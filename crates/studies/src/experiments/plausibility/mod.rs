@@ -4,6 +4,7 @@ mod bends;
 mod capacity;
 mod changes;
 mod courtesy;
+mod cut_ins;
 mod following;
 mod lanes;
 mod lights;
@@ -17,6 +18,7 @@ use crate::experiments::finding::{Finding, csv_of, table_of};
 
 /// Measures everything.
 pub(crate) fn plausibility(effort: &Effort) -> Result<Finding, Fault> {
+    let cut_ins = cut_ins::cut_ins_beside_recorded(effort)?;
     let rows = [
         changes::rows(effort)?,
         lanes::rows(effort)?,
@@ -27,15 +29,18 @@ pub(crate) fn plausibility(effort: &Effort) -> Result<Finding, Fault> {
         bends::rows(effort)?,
         courtesy::rows(effort)?,
         safety::rows(effort)?,
+        cut_ins.rows,
     ]
     .concat();
     let text = format!(
         "# Are these drivers plausible?\n\n\
          What the drivers that come with laneweave do, beside published values. Every value is a mean over {} seeds with its 95 % \
          interval. It is inside if the mean is in the range. Sources marked *m* are cited from memory. Ranges without a source are \
-         ours.\n\n{}",
+         ours.\n\n{}\n## Cut-ins\n\n\
+         A cut-in is a lane change before a follower within 4 s. Simulated and recorded traffic were watched in the same way.\n\n{}",
         effort.seeds,
-        table_of(&rows)
+        table_of(&rows),
+        cut_ins.table
     );
     Ok(Finding { text, tables: vec![("plausibility".into(), csv_of(&rows))], figures: Vec::new(), rows })
 }
