@@ -131,11 +131,15 @@ impl LaneChangeModel {
         }
     }
 
-    /// Whether a driver who waits for a gap would now rather stay, given its new `appraisal` of the side. In MOBIL
-    /// and LMRS the desire has no memory.
-    pub fn would_rather_stay(&self, appraisal: &Appraisal) -> bool {
+    /// Whether a driver who waits for a gap would now rather stay, given its new `appraisal` of the side, whose G was
+    /// `gain_before` when the desire came. What made it want a change of so little gain, the noise of its choice, is
+    /// still there (ours): it would rather stay when G is below 0 and as far below that of then as the threshold is
+    /// above 0. In MOBIL and LMRS the desire has no memory.
+    pub fn would_rather_stay(&self, appraisal: &Appraisal, gain_before: f64) -> bool {
         match self {
-            LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_) => appraisal.gain < 0.0,
+            LaneChangeModel::Mcdm(_) | LaneChangeModel::ConstantHazard(_) => {
+                appraisal.gain < (gain_before - appraisal.theta).min(0.0)
+            }
             LaneChangeModel::Mobil(_) | LaneChangeModel::Lmrs(_) => appraisal.gain < appraisal.theta,
         }
     }

@@ -311,7 +311,7 @@ fn gives_up(
     let Some(appraisal) = wanted else { return true };
     let waited = moment.clock.since(lane_change.since);
     let is_tired = lane_change.kind != LaneChangeKind::Route && waited > style.manner.patience;
-    let is_pointless = style.change.would_rather_stay(appraisal);
+    let is_pointless = style.change.would_rather_stay(appraisal, f64::from(lane_change.gain));
     let is_better_elsewhere =
         other.is_some_and(|it| it.gain > it.theta && it.gain > appraisal.gain + it.theta.abs());
     is_tired || is_pointless || is_better_elsewhere

@@ -25,6 +25,8 @@ pub struct LaneChangeState {
     pub progress: f32,
     /// Urgency of the desired change, 0…1.
     pub urgency: f32,
+    /// G of the side when the desire came.
+    pub gain: f32,
     /// The slot of the record of the desired or current change.
     pub record: u32,
     /// The chains that it came from.
@@ -44,7 +46,7 @@ impl LaneChangeState {
     pub(crate) const NOBODY: (f32, f32) = (f32::INFINITY, 0.0);
 }
 
-const _: () = assert!(size_of::<LaneChangeState>() <= 80, "memory of a vehicle");
+const _: () = assert!(size_of::<LaneChangeState>() <= 88, "memory of a vehicle");
 
 /// The other entry of a vehicle that changes lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -85,6 +85,7 @@ pub(super) fn entry(roads: &Roads, clock: Clock, vehicle: &Placement, id: Vehicl
         stretch: 1.0,
         progress: 0.0,
         urgency: 0.0,
+        gain: 0.0,
         record: 0,
         previous_lanes: PreviousLanes::NONE,
         counterpart: None,

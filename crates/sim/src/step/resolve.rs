@@ -103,6 +103,7 @@ impl Resolving<'_> {
         lane_change.kind = want.kind;
         lane_change.since = step;
         lane_change.urgency = request.urgency;
+        lane_change.gain = want.appraisal.gain as f32;
         let here = Position::new(spot.chain, motion.x);
         lane_change.record = self.log.keep_change(LaneChange {
             vehicle: motion.id,

@@ -155,6 +155,7 @@ fn main_entry(network: &Network, seen: &Seen) -> Entry {
         stretch: 1.0,
         progress: seen.change.map_or(0.0, |it| it.progress as f32),
         urgency: 0.0,
+        gain: 0.0,
         record: 0,
         previous_lanes: PreviousLanes::NONE,
         counterpart: seen.change.map(counterpart),

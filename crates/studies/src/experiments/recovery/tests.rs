@@ -7,7 +7,7 @@ use super::drone::{Driven, NOISE};
 use super::exact;
 use super::settings::Setting;
 use super::variants::{EXACT, OURS, PLAIN, fits_of};
-use super::weights::{NO_SPREAD, Seen, WEIGHTS};
+use super::weights::{NO_SPREAD, WEIGHTS};
 use crate::experiments::effort::Effort;
 
 #[test]
@@ -25,17 +25,23 @@ fn weights_observed_exactly_come_back() {
 
 #[test]
 fn what_is_known_of_drivers_whom_a_drone_sees_brings_their_weights_nearer() {
-    let driven = Driven::of(&Setting::motorway(), 1, 0.6).expect("built-in styles");
-    let [plain, exact, ours] = fits_of(&[PLAIN, EXACT, OURS], &driven).expect("three fits")[..] else {
-        panic!("three fits")
-    };
-    let off = |it: &Seen, weight: usize| (it.shares[weight] - 1.0).abs();
-    for weight in 0..WEIGHTS.len() {
-        assert!(off(&exact, weight) < 0.5 * off(&plain, weight), "{plain:?} {exact:?}");
-        assert!(off(&ours, weight) < 0.5 * off(&plain, weight), "{plain:?} {ours:?}");
+    // One run of 0.6 h is off by chance as much as by what is not known.
+    const RUNS: u64 = 4;
+    let mut shares = [[0.0; WEIGHTS.len()]; 3];
+    for seed in 1..=RUNS {
+        let driven = Driven::of(&Setting::motorway(), seed, 0.6).expect("built-in styles");
+        let fits = fits_of(&[PLAIN, EXACT, OURS], &driven).expect("three fits");
+        for (sums, fit) in shares.iter_mut().zip(&fits) {
+            sums.iter_mut().zip(fit.shares).for_each(|(sum, it)| *sum += it / RUNS as f64);
+        }
+        let [all, used] = fits[2].changes;
+        assert!(used * 10 > all * 7, "{used} of {all}");
     }
-    let [all, used] = ours.changes;
-    assert!(used * 10 > all * 7, "{used} of {all}");
+    let [plain, exact, ours] = shares.map(|it| it.map(|share| (share - 1.0).abs()));
+    for weight in 0..WEIGHTS.len() {
+        assert!(exact[weight] < 0.5 * plain[weight], "{shares:?}");
+        assert!(ours[weight] < 0.5 * plain[weight], "{shares:?}");
+    }
 }
 
 #[test]
