@@ -9,6 +9,7 @@ mod effort;
 mod finding;
 mod measures;
 mod motorway_rates;
+mod outcomes;
 mod plausibility;
 mod readings;
 mod recovery;

@@ -7,6 +7,8 @@ use laneweave::sim::{Counters, Counts};
 use laneweave::study::Moments;
 use laneweave::{Event, LaneChange, LaneChangeKind, Phase, Side, Simulation, VehicleId};
 
+use crate::experiments::outcomes::Outcomes;
+
 /// Length of a section in which speeds are averaged [m], and time over which they are [s].
 pub(crate) const SECTION: f64 = 100.0;
 pub(crate) const INTERVAL: f64 = 10.0;
@@ -36,6 +38,8 @@ pub(crate) struct Seen {
     pub(crate) durations: [Vec<f64>; 2],
     /// Gaps to the new leader and to the new follower when completed changes began [m]; none where nobody was in sight.
     pub(crate) gaps: [Vec<f64>; 2],
+    /// What came of completed changes, on motorways without ramps.
+    pub(crate) outcomes: Outcomes,
     /// By style: completed discretionary changes, and vehicle-kilometres.
     pub(crate) of_style: BTreeMap<String, (u32, f64)>,
     /// Samples of drivers who wait for a gap, and of drivers who make room for one.
@@ -58,10 +62,14 @@ impl Seen {
         for event in events {
             match event {
                 Event::Completed { .. } => self.completed.push(time),
-                Event::LaneChange(it) if it.is_completed => self.note_change(it),
+                Event::LaneChange(it) if it.is_completed => {
+                    self.note_change(it);
+                    self.outcomes.note(simulation, it);
+                }
                 _ => {}
             }
         }
+        self.outcomes.look(simulation);
         if (time / EVERY).fract() < simulation.step_s() / EVERY * 0.999 {
             self.look(simulation, time);
         }

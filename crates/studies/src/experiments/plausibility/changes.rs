@@ -10,6 +10,7 @@ use crate::experiments::effort::Effort;
 use crate::experiments::finding::Row;
 use crate::experiments::measures::median;
 use crate::experiments::motorway_rates::{rate, ratio, ratio_row};
+use crate::experiments::plausibility::outcomes;
 use crate::experiments::seen::Seen;
 use crate::experiments::traffic::{Arriving, Road, Traffic};
 
@@ -56,17 +57,18 @@ fn four_lanes(effort: &Effort) -> Result<[Row; 4], Fault> {
     Ok(of_flow(&format!("{FLOW:.0} veh/h/lane on 4 lanes"), ours, mobil))
 }
 
-/// The ratios of rates under the law of Germany.
+/// The ratios of rates under the law of Germany, and what comes of changes there.
 fn german_ratios(effort: &Effort) -> Result<Vec<Row>, Fault> {
     let law = Law::Germany;
     let with = |model| FLOWS.map(|flow| Traffic { model, law, ..Traffic::on_motorway(3, flow) });
     let [ours, mobil] = [None, Some(Model::Mobil)].map(|model| drive(effort, &with(model)));
-    let pairs = ours?.into_iter().zip(mobil?);
-    Ok(FLOWS
-        .iter()
-        .zip(pairs)
-        .map(|(flow, (ours, mobil))| ratio_row(*flow, law, between(&ours, &mobil, ratio)))
-        .collect())
+    let (ours, mobil) = (ours?, mobil?);
+    let pairs = FLOWS.iter().zip(ours.iter().zip(&mobil));
+    let mut rows: Vec<Row> =
+        pairs.map(|(flow, (ours, mobil))| ratio_row(*flow, law, between(ours, mobil, ratio))).collect();
+    let busy = FLOWS.iter().zip(&ours).filter(|(flow, _)| **flow >= BUSY);
+    rows.extend(busy.flat_map(|(flow, ours)| outcomes::of_law(*flow, ours)));
+    Ok(rows)
 }
 
 /// Rate, gain, gap and reversals at one flow.
@@ -131,7 +133,7 @@ fn signs(effort: &Effort) -> Result<Vec<Row>, Fault> {
         laneweave::study::Estimate { mean: it.interval().lower, half_width: 0.0, ..it }
     });
     let row = |what: &str, unit, value, range| Row { what: what.into(), unit, value, range, source: OURS };
-    Ok(vec![
+    let mut rows = vec![
         row(
             "desire when held up beside a free lane ÷ on a free road",
             "",
@@ -152,7 +154,9 @@ fn signs(effort: &Effort) -> Result<Vec<Row>, Fault> {
             [0.0, f64::INFINITY],
         ),
         row("discretionary changes per veh-km without incentives", "1/veh-km", over(null, rate), [0.0, 0.02]),
-    ])
+    ];
+    rows.extend(outcomes::beside_coin(ours, coin));
+    Ok(rows)
 }
 
 /// Durations of free changes on a motorway, and of pressed ones before ramps.

@@ -8,6 +8,7 @@ mod cut_ins;
 mod following;
 mod lanes;
 mod lights;
+mod outcomes;
 mod safety;
 mod speeds;
 
