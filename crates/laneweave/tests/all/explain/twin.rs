@@ -2,7 +2,7 @@
 //! formulas of the book, without code of the program.
 
 use laneweave::models::change::IncentiveName::{self, Comfort, Courtesy, Keeping, Route, Speed, Urgency};
-use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal};
+use laneweave::models::change::{LaneChangeModel, Mcdm, Refusal, Safety};
 use laneweave::models::follow::FollowingModel;
 use laneweave::network::Side;
 use laneweave_sim::{Phase, World};
@@ -330,10 +330,9 @@ impl<'a> Twin<'a> {
         let headway_relaxation = 1.0 - 0.3 * (1.0 - style.manner.tightest);
         let pressed = Body { headway_relaxation: headway_relaxation.min(me.headway_relaxation), ..me };
         let time = dt.max(0.5);
-        let check = |follower: &Body, gap: f64, [leader, leader_acceleration]: [f64; 2]| {
+        let check = |safety: &Safety, follower: &Body, gap: f64, [leader, leader_acceleration]: [f64; 2]| {
             let closing = (follower.speed - leader).max(0.0);
             let stopping = |v: f64| v * v / 16.0;
-            let safety = &style.safety;
             let needed = (stopping(follower.speed) - stopping(leader)).max(0.0) + follower.speed * time;
             if gap < safety.min_gap {
                 Some(Refusal::Short)
@@ -348,12 +347,12 @@ impl<'a> Twin<'a> {
             }
         };
         let ahead = there[0].and_then(|(it, gap)| {
-            check(&pressed, gap + otherwise.gaps[0], [it.speed + leader, it.acceleration])
+            check(&style.safety, &pressed, gap + otherwise.gaps[0], [it.speed + leader, it.acceleration])
         });
         let behind = || {
             there[1].and_then(|(it, gap)| {
                 let it = Body { speed: it.speed + follower, ..it };
-                check(&it, gap + otherwise.gaps[1], [me.speed, me.acceleration])
+                check(&style.safety.of_follower(), &it, gap + otherwise.gaps[1], [me.speed, me.acceleration])
             })
         };
         ahead.map(|it| (0, it)).or_else(|| behind().map(|it| (1, it)))
