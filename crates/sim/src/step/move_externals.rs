@@ -52,7 +52,7 @@ pub(crate) fn move_externals(
     }
     externals.all().iter().for_each(|it| limit_speeds(traffic, it));
     *traffic.externals_mut() = externals;
-    show_rears(traffic);
+    show_rears(roads.network(), traffic);
 }
 
 /// Removes the obstacles that stand for a vehicle.

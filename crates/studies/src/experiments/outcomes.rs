@@ -128,8 +128,8 @@ impl Outcomes {
 }
 
 impl Race {
-    /// How much faster the driver was in this `time` [s] than those it left [m/s], by where they are now. `None` if it has
-    /// left the road, or if they all have.
+    /// How much faster the driver was in this `time` [s] than those it left [m/s], by where they are now. `None` if it
+    /// has left the road, or if they all have.
     fn gain(&self, time: f64, now: impl Fn(VehicleId) -> Option<f64>) -> Option<f64> {
         let speed = |it: &Place| now(it.id).map(|now| (now - it.front) / time);
         let mut others = Moments::default();

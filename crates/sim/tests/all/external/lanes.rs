@@ -1,11 +1,12 @@
 //! External vehicles that drive in lanes do what their users say.
 
-use laneweave_network::Side;
+use laneweave_network::{ChainIndex, Position, Side};
 use laneweave_sim::{
     Class, Command, Control, Event, IncidentKind, Lateral, Longitudinal, NewVehicle, Phase, VehicleId, World,
 };
 
 use crate::external::worlds::world;
+use crate::roads::network;
 
 /// A car on the middle lane of an empty motorway of three lanes.
 pub(crate) fn alone() -> (World, VehicleId) {
@@ -149,35 +150,46 @@ fn drivers_behind_it_stay_clear_of_whatever_it_does() {
     assert_eq!((world.counters().collisions, world.counters().overlaps), (0, 0));
 }
 
-#[test]
-fn drivers_behind_vehicles_that_lie_within_each_other_stop_for_the_rearmost_one() {
-    let (mut world, short) = alone();
-    let long = {
-        let lanelet = world.network().lanelet_at(laneweave_network::Position::new(
-            world.vehicle(short).expect("it is there").spot.chain,
-            100.0,
-        ));
-        let (lanelet, style) = (lanelet.0.id, "conservative".into());
-        let (position_m, speed_mps, class, destination) = (100.0, 0.0, Class::Bus, None);
-        let bus = NewVehicle { lanelet, position_m, speed_mps, class, style, destination };
-        world.command(Command::Insert(bus)).expect("it is free").expect("it has an id")
+/// Puts a vehicle with its front at a place of a straight road.
+fn place(world: &mut World, at: Position, class: Class, speed_mps: f64) -> VehicleId {
+    let (lanelet, position_m) = world.network().lanelet_at(at);
+    let (lanelet, style, destination) = (lanelet.id, "conservative".into(), None);
+    let vehicle = NewVehicle { lanelet, position_m, speed_mps, class, style, destination };
+    world.command(Command::Insert(vehicle)).expect("the place is free").expect("it has an id")
+}
+
+/// A bus drives into a standing car whose front is at a place, until its own front is a little beyond that one. Then a
+/// driver comes from behind.
+fn stops_for_the_rearmost_one(map: &str, at: Position) {
+    let mut world = world(map, 0.0, 1, 1);
+    let place = |world: &mut World, behind, class, speed| {
+        place(world, Position::new(at.chain, at.x - behind), class, speed)
     };
-    drive(&mut world, short, Longitudinal::Acceleration(-8.0), Lateral::Keep);
-    drive(&mut world, long, Longitudinal::Speed(0.0), Lateral::Keep);
-    steps(&mut world, 100);
-    // The bus drives into the car until its front is beyond the car's.
+    let short = place(&mut world, 0.0, Class::Car, 0.0);
+    let long = place(&mut world, 10.0, Class::Bus, 0.0);
+    drive(&mut world, short, Longitudinal::Speed(0.0), Lateral::Keep);
     drive(&mut world, long, Longitudinal::Speed(5.0), Lateral::Keep);
-    while world.vehicle(long).expect("it is there").x() < world.vehicle(short).expect("it is there").x() + 0.5
-    {
+    let [rear, front] = [1, 0].map(|it| move |world: &World, id| world.vehicle(id).unwrap().bumpers()[it].x);
+    while front(&world, long) < front(&world, short) + 0.5 {
         world.step();
     }
     drive(&mut world, long, Longitudinal::Acceleration(-8.0), Lateral::Keep);
     steps(&mut world, 20);
-    let behind = insert(&mut world, 1, 20.0, 15.0);
+    let behind = place(&mut world, 100.0, Class::Car, 15.0);
     drive(&mut world, behind, Longitudinal::Driver, Lateral::Keep);
     let events = steps(&mut world, 400);
     let struck = events.iter().filter(|it| matches!(it, Event::Incident(_))).count();
-    let rear = world.vehicle(long).expect("it is there").motion.rear();
-    let front = world.vehicle(behind).expect("it is there").x();
-    assert!(struck == 0 && front < rear && front > rear - 5.0, "{struck}: {front} m behind {rear} m");
+    let (rear, front) = (rear(&world, long), front(&world, behind));
+    assert!(struck == 0 && front < rear && front > rear - 5.0, "{map}: {struck}: {front} m behind {rear} m");
+}
+
+#[test]
+fn drivers_behind_vehicles_that_lie_within_each_other_stop_for_the_rearmost_one() {
+    for (map, to_end) in [("motorway_3_lanes.osm", 500.0), ("ramps.osm", 1.0)] {
+        let network = network(map);
+        let has_end = |it: &ChainIndex| map != "ramps.osm" || !network.chain(*it).following.is_empty();
+        let chain = network.entrances[0].chains.iter().copied().find(has_end).expect("a lane goes on");
+        // On the second map the front of the bus is on the next chain in the end.
+        stops_for_the_rearmost_one(map, Position::new(chain, network.chain(chain).length - to_end));
+    }
 }
