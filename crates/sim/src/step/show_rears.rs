@@ -53,9 +53,8 @@ fn hanging(network: &Network, traffic: &Traffic) -> Vec<(ChainIndex, Entry)> {
             }
         }
     }
-    found.sort_by(|(chain, a), (other, b)| {
-        chain.cmp(other).then(a.motion.rear().total_cmp(&b.motion.rear()))
-    });
+    found
+        .sort_by(|(chain, a), (other, b)| chain.cmp(other).then(a.motion.rear().total_cmp(&b.motion.rear())));
     found
 }
 

@@ -27,5 +27,8 @@ fn in_a_town_a_recorded_driver_knows_what_the_simulated_one_knew() {
     assert!(samples >= 300, "{outcomes:?}");
     // Lights and rights of way are in no recording.
     assert!(share("agree") > 0.75 && share("agree") + share("beyond junctions") > 0.9, "{outcomes:?}");
-    assert!(share("slows for what lies ahead") + share("new limit") < 0.07 && share("edge") < 0.01, "{outcomes:?}");
+    assert!(
+        share("slows for what lies ahead") + share("new limit") < 0.07 && share("edge") < 0.01,
+        "{outcomes:?}"
+    );
 }
