@@ -169,7 +169,8 @@ fn stops_for_the_rearmost_one(map: &str, at: Position) {
     let long = place(&mut world, 10.0, Class::Bus, 0.0);
     drive(&mut world, short, Longitudinal::Speed(0.0), Lateral::Keep);
     drive(&mut world, long, Longitudinal::Speed(5.0), Lateral::Keep);
-    let [rear, front] = [1, 0].map(|it| move |world: &World, id| world.vehicle(id).unwrap().bumpers()[it].x);
+    let bumper = |it: usize| move |world: &World, id| world.vehicle(id).expect("it is there").bumpers()[it].x;
+    let [front, rear] = [0, 1].map(bumper);
     while front(&world, long) < front(&world, short) + 0.5 {
         world.step();
     }
