@@ -85,12 +85,15 @@ export async function the_demo_and_a_driver(around) {
     await shoot(opened, around.shots, 'driver');
     // It is found by its id, by keyboard alone. Time stands, so that it does not leave while a slow machine looks for it.
     await opened.keyboard.press('Escape');
+    await until(opened, 'nobody is selected again', (it) => it.selected.length === 0);
     await opened.keyboard.press('/');
     await opened.keyboard.type(id);
     await opened.keyboard.press('Enter');
-    await until(opened, 'it is found', (it) => it.selected[0] === id);
+    await until(opened, 'it is found and followed', (it) => it.selected[0] === id && it.camera.mode === 'follow');
     await opened.click(hook('follow'));
-    await until(opened, 'it follows', (it) => it.camera.mode === 'follow');
+    await until(opened, 'it is no longer followed', (it) => it.camera.mode === 'free');
+    await opened.click(hook('follow'));
+    await until(opened, 'it is followed again', (it) => it.camera.mode === 'follow');
     await opened.click(hook('eye'));
     await until(opened, 'it looks through the eyes of the driver', (it) => it.camera.mode === 'eye');
     await play(opened);
