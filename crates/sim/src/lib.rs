@@ -16,6 +16,8 @@ mod junction;
 mod record;
 mod right_of_way;
 mod route;
+#[cfg(test)]
+mod some_style;
 mod state;
 mod step;
 mod view;

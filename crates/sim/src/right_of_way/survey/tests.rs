@@ -1,14 +1,12 @@
 use laneweave_generate::own_maps;
 use laneweave_maps::{Drawing, regulations};
-use laneweave_models::Style;
-use laneweave_models::change::{LaneChangeModel, Mcdm};
-use laneweave_models::follow::{FollowingModel, Idm};
 use laneweave_network::{
     DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Regulations, StopKind, StopRule,
 };
 
 use super::*;
 use crate::route::navigate::Navigator;
+use crate::some_style::some_style;
 use crate::state::vehicle::Class;
 use crate::view::snapshot::{Seen, Snapshot};
 
@@ -29,21 +27,6 @@ fn standing() -> Seen {
     }
 }
 
-fn driver_of() -> Style {
-    Style {
-        name: "some".into(),
-        description: String::new(),
-        speed_factor: 1.0,
-        follow: FollowingModel::Idm(Idm::default()),
-        change: LaneChangeModel::Mcdm(Mcdm::default()),
-        safety: Default::default(),
-        attention: Default::default(),
-        manner: Default::default(),
-        yielding: Default::default(),
-        guidance: Default::default(),
-    }
-}
-
 #[test]
 fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere_else() {
     let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
@@ -56,7 +39,7 @@ fn a_vehicle_counts_on_standing_where_its_front_and_its_rear_will_be_and_nowhere
         let x = network.chain(chain).length * f64::from(number) / 6000.0;
         let truck = Seen { chain, x, destination, ..standing() };
         let snapshot = Snapshot::new(&network, [truck]);
-        let styles = [driver_of()];
+        let styles = [some_style()];
         let scene = snapshot.scene(&network, &navigator, &styles);
         let (spot, mut out) = (snapshot.spot(1).unwrap(), Survey::default());
         if !survey(&scene, &Applicant::at(&scene, spot), [0.0, 30.0], |_, _| false, &mut out) {
@@ -85,7 +68,7 @@ fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, 
         let length = class.body().length;
         let seen = Seen { chain, x, length, class, destination, ..standing() };
         let snapshot = Snapshot::new(network, [seen]);
-        let styles = [driver_of()];
+        let styles = [some_style()];
         let scene = snapshot.scene(network, &navigator, &styles);
         let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
         let mut out = Survey::default();

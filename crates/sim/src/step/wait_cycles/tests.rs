@@ -2,14 +2,12 @@ use std::sync::Arc;
 
 use laneweave_generate::own_maps;
 use laneweave_maps::regulations;
-use laneweave_models::Style;
-use laneweave_models::change::{LaneChangeModel, Mcdm};
-use laneweave_models::follow::{FollowingModel, Idm};
 use laneweave_network::{Touch, Zone, ZoneIndex, ZoneKind};
 
 use super::*;
 use crate::demand::{Demand, Share};
 use crate::junction::reservations::Holder;
+use crate::some_style::some_style;
 use crate::state::lane::VehicleId;
 use crate::state::setup::{Placement, Setup};
 use crate::state::vehicle::Class;
@@ -21,21 +19,6 @@ fn rings_are_found_wherever_one_begins_to_look() {
     let next = [Some(1), Some(2), Some(1), Some(4), Some(3), None, Some(6)];
     assert_eq!(wait_cycles(&next), [vec![1, 2], vec![3, 4], vec![6]]);
     assert_eq!(wait_cycles(&[None, None]), Vec::<Vec<usize>>::new());
-}
-
-fn driver() -> Style {
-    Style {
-        name: "some".into(),
-        description: String::new(),
-        speed_factor: 1.0,
-        follow: FollowingModel::Idm(Idm::default()),
-        change: LaneChangeModel::Mcdm(Mcdm::default()),
-        safety: Default::default(),
-        attention: Default::default(),
-        manner: Default::default(),
-        yielding: Default::default(),
-        guidance: Default::default(),
-    }
 }
 
 /// A vehicle comes from an entrance to an exit, `distance` before the end of its lane [m].
@@ -63,7 +46,7 @@ fn counts_on(lacks_space: bool) -> u32 {
         let population = vec![Share { weight: 1.0, first: 0, count: 1 }];
         let nobody = Demand::even(&network, 0.0, 0.0, population);
         let setup = Setup { step: 0.1, seed: 1, threads: 1 };
-        let mut world = World::new(network.clone(), vec![driver()], nobody, setup).unwrap();
+        let mut world = World::new(network.clone(), vec![some_style()], nobody, setup).unwrap();
         let first = put(&mut world, one, 25.0);
         let mut second = None;
         let mut was_first_alone = vec![false; network.junctions.zones.len()];
