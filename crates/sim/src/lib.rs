@@ -16,8 +16,6 @@ mod junction;
 mod record;
 mod right_of_way;
 mod route;
-#[cfg(test)]
-mod some_style;
 mod state;
 mod step;
 mod view;

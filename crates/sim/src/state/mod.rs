@@ -27,6 +27,8 @@ pub(crate) mod previous_lanes;
 pub(crate) mod push_tight;
 pub(crate) mod random;
 pub(crate) mod setup;
+#[cfg(test)]
+pub(crate) mod some_style;
 pub(crate) mod standstill;
 pub(crate) mod traffic;
 pub(crate) mod vehicle;

@@ -6,7 +6,7 @@ use laneweave_network::{
 
 use super::*;
 use crate::route::navigate::Navigator;
-use crate::some_style::some_style;
+use crate::state::some_style::some_style;
 use crate::state::vehicle::Class;
 use crate::view::snapshot::{Seen, Snapshot};
 

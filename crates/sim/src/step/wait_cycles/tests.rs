@@ -7,9 +7,9 @@ use laneweave_network::{Touch, Zone, ZoneIndex, ZoneKind};
 use super::*;
 use crate::demand::{Demand, Share};
 use crate::junction::reservations::Holder;
-use crate::some_style::some_style;
 use crate::state::lane::VehicleId;
 use crate::state::setup::{Placement, Setup};
+use crate::state::some_style::some_style;
 use crate::state::vehicle::Class;
 use crate::step::world::World;
 
