@@ -12,11 +12,9 @@
 //! part, and standard errors do not rely on it.
 
 use super::predict::Moved;
-use super::stretch::{SECONDS, Stretch};
+use super::stretch::Stretch;
 use crate::matrix::{Cholesky, Matrix, dot};
 
-/// Number of errors of a stretch: of ways, then of speeds.
-pub(super) const SIZE: usize = 2 * SECONDS;
 /// ν: the degrees of freedom (ours).
 const FREEDOM: f64 = 4.0;
 /// Part of the correlation of the errors of one stretch that is used (ours).
@@ -25,39 +23,39 @@ const USED: f64 = 0.2;
 const CRAWLS: f64 = 3.0;
 /// The kinds of stretches whose errors differ.
 const KINDS: usize = 3;
-/// Stretches of a kind that show its scales; fewer are taken with those of all kinds (ours).
-const ENOUGH: usize = 10 * SIZE;
+/// Stretches of a kind, for each error, that show its scales; fewer are taken with those of all kinds (ours).
+const ENOUGH: usize = 10;
 /// Least standard deviation of an error, in metres and metres per second (ours): recordings are not more exact.
 const LEAST: f64 = 0.01;
 
 /// The errors of a stretch: by how much a prediction is too far, and too fast.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Off {
     /// The kind of the stretch.
     pub(super) kind: usize,
-    pub(super) errors: [f64; SIZE],
+    pub(super) errors: Vec<f64>,
 }
 
-/// By how much a prediction is too far [m], and too fast [m/s].
-pub(super) fn errors(predicted: &[Moved; SECONDS], stretch: &Stretch) -> [f64; SIZE] {
-    let seen = &stretch.own[1..];
-    std::array::from_fn(|it| match it.checked_sub(SECONDS) {
-        None => predicted[it].way - seen[it].way,
-        Some(second) => predicted[second].speed - seen[second].speed,
-    })
+/// By how much a prediction is too far [m] at each look, and then too fast [m/s].
+pub(super) fn errors(predicted: &[Moved], stretch: &Stretch) -> Vec<f64> {
+    let pairs = || predicted.iter().zip(&stretch.own[1..]);
+    let ways = pairs().map(|(predicted, seen)| predicted.way - seen.way);
+    ways.chain(pairs().map(|(predicted, seen)| predicted.speed - seen.speed)).collect()
 }
 
 /// The kind of a stretch.
 pub(super) fn kind(stretch: &Stretch) -> usize {
-    match stretch.leader {
-        None => 0,
-        Some(_) if stretch.own[0].speed < CRAWLS => 1,
-        Some(_) => 2,
+    match stretch.leader[..] {
+        [] => 0,
+        _ if stretch.own[0].speed < CRAWLS => 1,
+        _ => 2,
     }
 }
 
 /// The distributions of the errors of all kinds.
 pub(super) struct Errors {
+    /// Number of errors of a stretch.
+    size: usize,
     kinds: Vec<Scale>,
 }
 
@@ -78,25 +76,33 @@ pub(super) struct Weighed {
 }
 
 impl Errors {
-    /// Twice the share by which a large error bends the likelihood less: 2/(ν + p).
-    pub(super) const BENT: f64 = 2.0 / (FREEDOM + SIZE as f64);
-
     /// Those that `all` show: by a step of expectation and maximisation from `before` on. `None` without any.
     pub(super) fn of(all: &[Off], before: Option<&Errors>) -> Option<Errors> {
+        let size = all.first()?.errors.len();
         let of_kind = |kind: usize| {
             let own: Vec<&Off> = all.iter().filter(|it| it.kind == kind).collect();
-            let own = if own.len() < ENOUGH { all.iter().collect() } else { own };
-            Scale::of(&own, before)
+            let own = if own.len() < ENOUGH * size { all.iter().collect() } else { own };
+            Scale::of(size, &own, before)
         };
-        Some(Errors { kinds: (0..KINDS).map(of_kind).collect::<Option<_>>()? })
+        Some(Errors { size, kinds: (0..KINDS).map(of_kind).collect::<Option<_>>()? })
+    }
+
+    /// ν + p.
+    fn all(&self) -> f64 {
+        FREEDOM + self.size as f64
+    }
+
+    /// Twice the share by which a large error bends the likelihood less: 2/(ν + p).
+    pub(super) fn bent(&self) -> f64 {
+        2.0 / self.all()
     }
 
     /// What `errors` of a stretch of this kind count.
-    pub(super) fn weighed(&self, kind: usize, errors: &[f64; SIZE]) -> Weighed {
+    pub(super) fn weighed(&self, kind: usize, errors: &[f64]) -> Weighed {
         let Scale { factor, log_determinant } = &self.kinds[kind];
         let mut slope = factor.solve(errors);
         let square = dot(&slope, errors);
-        let all = FREEDOM + SIZE as f64;
+        let all = self.all();
         let weight = all / (FREEDOM + square);
         slope.iter_mut().for_each(|it| *it *= weight);
         let log = -0.5 * log_determinant - 0.5 * all * libm::log1p(square / FREEDOM);
@@ -104,22 +110,22 @@ impl Errors {
     }
 
     /// The inverse of the scale matrix of this kind times `values`.
-    pub(super) fn solved(&self, kind: usize, values: &[f64; SIZE]) -> Vec<f64> {
+    pub(super) fn solved(&self, kind: usize, values: &[f64]) -> Vec<f64> {
         self.kinds[kind].factor.solve(values)
     }
 }
 
 impl Scale {
     /// That of `all`, each with the weight that it has `before`.
-    fn of(all: &[&Off], before: Option<&Errors>) -> Option<Scale> {
-        let (mut sum, count) = (Matrix::zeros(SIZE), all.len() as f64);
+    fn of(size: usize, all: &[&Off], before: Option<&Errors>) -> Option<Scale> {
+        let (mut sum, count) = (Matrix::zeros(size), all.len() as f64);
         for Off { kind, errors } in all {
             let weight = before.map_or(1.0, |it| it.weighed(*kind, errors).weight);
             sum.add_outer(weight, errors, errors);
         }
-        let mut scale = Matrix::zeros(SIZE);
-        for row in 0..SIZE {
-            (0..SIZE).for_each(|column| scale[(row, column)] = USED * sum[(row, column)] / count);
+        let mut scale = Matrix::zeros(size);
+        for row in 0..size {
+            (0..size).for_each(|column| scale[(row, column)] = USED * sum[(row, column)] / count);
             scale[(row, row)] = sum[(row, row)] / count + LEAST * LEAST;
         }
         let factor = Cholesky::of(&scale)?;
@@ -132,13 +138,13 @@ impl Scale {
 mod tests {
     use super::*;
 
-    fn off(errors: [f64; SIZE]) -> Off {
-        Off { kind: 2, errors }
-    }
+    /// Number of errors.
+    const SIZE: usize = 16;
 
     /// As many vectors as there are errors, each with one error of its own and one that all have.
     fn toy() -> Vec<Off> {
-        let own = |at: usize| off(std::array::from_fn(|it| if it == at { 3.0 } else { 1.0 }));
+        let errors = |at: usize| (0..SIZE).map(|it| if it == at { 3.0 } else { 1.0 }).collect();
+        let own = |at: usize| Off { kind: 2, errors: errors(at) };
         (0..SIZE).map(own).collect()
     }
 

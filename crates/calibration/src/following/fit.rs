@@ -2,12 +2,13 @@
 
 use laneweave_models::{Parameter, Style};
 
+use super::episode::Followed;
 use super::errors::Errors;
 use super::maximum::Precision;
 use super::numbers::{JAM_GAP, NUMBERS, with_numbers};
 use super::problem::{OWN, PARAMETERS, PRIOR, Parameters, Problem};
 use super::score::{FollowingScore, scores};
-use super::stretch::{Followed, SECONDS};
+use super::stretch::{Stretches, length, stretches};
 use crate::held_out::Folds;
 use crate::observe::{USUAL_LOGS, moments};
 use crate::resample::resampled_drivers;
@@ -53,8 +54,8 @@ pub struct FollowingFit {
     pub drivers: usize,
     /// Number of stretches.
     pub stretches: usize,
-    /// Their time [s].
-    pub seconds: f64,
+    /// The length of each [s].
+    pub length: f64,
     /// How well drivers are predicted who were not seen.
     pub scores: Vec<FollowingScore>,
     /// T, s₀, a and b in each draw of a bootstrap over drivers.
@@ -98,8 +99,9 @@ pub(super) fn fit(
     folds: &Folds,
     draws: u32,
 ) -> Result<FollowingFit, NotFitted> {
-    let problem = Problem::of(style, drivers, |_| true).ok_or(NotFitted::OtherModel)?;
-    let seen = drivers.iter().filter(|it| !it.stretches.is_empty()).count();
+    let cut = stretches(drivers, length(drivers));
+    let problem = Problem::of(style, &cut, |_| true).ok_or(NotFitted::OtherModel)?;
+    let seen = cut.iter().filter(|it| !it.all.is_empty()).count();
     if seen < ENOUGH {
         return Err(NotFitted::FewDrivers);
     }
@@ -118,14 +120,14 @@ pub(super) fn fit(
     numbers.iter_mut().zip(used).for_each(|(number, it)| number.value = libm::exp(it));
     let own_error = HALF * precision.covariance[(OWN, OWN)].sqrt();
     Ok(FollowingFit {
-        speed_factor: speed_factor(style, drivers, problem.desired),
+        speed_factor: speed_factor(style, &cut, problem.desired),
         own: maximum.at[OWN],
         own_interval: [maximum.at[OWN] - own_error, maximum.at[OWN] + own_error],
-        time_gap_spread: time_gap_spread(drivers, &used),
+        time_gap_spread: time_gap_spread(&cut, &used),
         drivers: seen,
         stretches: problem.cases.len(),
-        seconds: problem.cases.iter().map(|it| it.stretch.period * SECONDS as f64).sum(),
-        scores: scores(style, drivers, maximum.at, folds),
+        length: problem.cases.first().map_or(0.0, |it| it.stretch.period * it.stretch.length() as f64),
+        scores: scores(style, drivers, &cut, maximum.at, folds),
         draws: redrawn(&used, &free, &precision, (folds.seed, draws)),
         is_converged: maximum.is_converged,
         numbers,
@@ -177,10 +179,10 @@ fn interval(estimate: f64, log_error: f64) -> [f64; 2] {
 /// The median factor of desired speeds, whose logarithms have this distribution over the drivers. Its error is that of
 /// a mean of which each driver shows a part (the missing information principle; Louis 1982, J. R. Stat. Soc. B 44,
 /// 226).
-fn speed_factor(style: &Style, drivers: &[Followed], distribution: (f64, f64)) -> FittedNumber {
+fn speed_factor(style: &Style, drivers: &[Stretches], distribution: (f64, f64)) -> FittedNumber {
     let (mean, deviation) = distribution;
     let variance = deviation * deviation;
-    let told = |it: &Followed| {
+    let told = |it: &Stretches| {
         let (first, second) = moments(it.shown.as_ref()?, distribution);
         Some((1.0 - (second - first * first) / variance).max(0.0))
     };
@@ -203,11 +205,10 @@ fn speed_factor(style: &Style, drivers: &[Followed], distribution: (f64, f64)) -
 }
 
 /// The standard deviation of the logarithms of the time gaps that drivers seek.
-fn time_gap_spread(drivers: &[Followed], at: &Parameters) -> f64 {
+fn time_gap_spread(drivers: &[Stretches], at: &Parameters) -> f64 {
     let jam_gap = libm::exp(at[JAM_GAP]);
-    let mean = |it: &Followed| {
-        let logs: Vec<f64> =
-            it.stretches.iter().filter_map(|it| it.time_gap(jam_gap)).map(libm::log).collect();
+    let mean = |it: &Stretches| {
+        let logs: Vec<f64> = it.all.iter().filter_map(|it| it.time_gap(jam_gap)).map(libm::log).collect();
         (!logs.is_empty()).then(|| logs.iter().sum::<f64>() / logs.len() as f64)
     };
     let means: Vec<f64> = drivers.iter().filter_map(mean).collect();

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::errors::{Errors, SIZE, kind};
+use super::errors::{Errors, kind};
 use super::problem::{Case, PARAMETERS, PRIOR, Parameters, Problem};
 use crate::matrix::{Cholesky, Matrix, add, dot};
 
@@ -95,7 +95,7 @@ impl Problem<'_> {
         let (_, mut curvature) = self.sums(&parts, at, &all);
         let mut by_driver = vec![[0.0; PARAMETERS]; self.drivers];
         for part in &parts {
-            curvature.add_outer(-Errors::BENT, &part.slope, &part.slope);
+            curvature.add_outer(-errors.bent(), &part.slope, &part.slope);
             add(&mut by_driver[part.driver], 1.0, &part.slope);
         }
         let inverse = Cholesky::of(&curvature)?.inverse();
@@ -120,20 +120,20 @@ impl Problem<'_> {
     fn parts(&self, errors: &Errors, parameters: &Parameters) -> Vec<Part> {
         let of = |case: &Case| {
             let kind = kind(case.stretch);
-            let slopes: [[f64; SIZE]; PARAMETERS] = std::array::from_fn(|at| {
+            let slopes: [Vec<f64>; PARAMETERS] = std::array::from_fn(|at| {
                 let [below, above] = [-SHIFT, SHIFT].map(|shift| {
                     let mut shifted = *parameters;
                     shifted[at] += shift;
                     self.errors(case, &shifted)
                 });
-                std::array::from_fn(|it| (above[it] - below[it]) / (2.0 * SHIFT))
+                above.iter().zip(&below).map(|(above, below)| (above - below) / (2.0 * SHIFT)).collect()
             });
             let weighed = errors.weighed(kind, &self.errors(case, parameters));
-            let solved = slopes.map(|it| errors.solved(kind, &it));
+            let solved = slopes.each_ref().map(|it| errors.solved(kind, it));
             let curvature = |row: usize, column: usize| weighed.weight * dot(&solved[row], &slopes[column]);
             Part {
                 driver: case.driver,
-                slope: slopes.map(|it| -dot(&weighed.slope, &it)),
+                slope: slopes.each_ref().map(|it| -dot(&weighed.slope, it)),
                 curvature: std::array::from_fn(|row| std::array::from_fn(|column| curvature(row, column))),
             }
         };

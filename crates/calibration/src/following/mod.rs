@@ -1,10 +1,12 @@
 //! How drivers follow: the numbers of the car-following model that explain recorded drivers.
 //!
-//! `look.rs` notes about once a second what every driver sees and whether it only follows; `stretch.rs` cuts that into
-//! stretches of eight seconds. `predict.rs` simulates a driver through a stretch, and `errors.rs` says how much the
-//! errors of such a prediction count. `problem.rs` and `maximum.rs` find the numbers that explain all stretches best,
-//! `fit.rs` says how sure they are, and `score.rs` how well they predict drivers who were not seen.
+//! `look.rs` notes about once a second what every driver sees and whether it only follows; `episode.rs` finds the times
+//! in which it has one leader, or none, and `stretch.rs` cuts these into stretches of equal length. `predict.rs`
+//! simulates a driver through a stretch, and `errors.rs` says how much the errors of such a prediction count.
+//! `problem.rs` and `maximum.rs` find the numbers that explain all stretches best, `fit.rs` says how sure they are, and
+//! `score.rs` how well they predict drivers who were not seen.
 
+mod episode;
 mod errors;
 mod fit;
 mod look;
@@ -30,7 +32,7 @@ pub use score::{FollowingScore, Wrong};
 /// Drivers of recordings, as far as they follow or are free.
 #[derive(Clone, Debug, Default)]
 pub struct Followers {
-    drivers: Vec<stretch::Followed>,
+    drivers: Vec<episode::Followed>,
 }
 
 impl Followers {
@@ -44,7 +46,7 @@ impl Followers {
         navigator: &Navigator,
         style: &Style,
     ) -> Result<(), ReplayError> {
-        self.drivers.extend(stretch::followed(matched, navigator, style)?);
+        self.drivers.extend(episode::followed(matched, navigator, style)?);
         Ok(())
     }
 

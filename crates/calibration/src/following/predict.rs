@@ -8,7 +8,7 @@ use laneweave_models::braking::{HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::comfortable::comfortably;
 use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
 
-use super::stretch::{Lead, SECONDS, Stretch};
+use super::stretch::{Lead, Stretch};
 
 /// The simulator's usual step [s].
 const STEP: f64 = 0.1;
@@ -33,19 +33,20 @@ pub(crate) struct Moved {
 }
 
 impl Follower {
-    /// Where the driver is at the end of each second of `stretch`.
-    pub(super) fn predicted(&self, stretch: &Stretch) -> [Moved; SECONDS] {
+    /// Where the driver is at each look of `stretch` after the first one.
+    pub(super) fn predicted(&self, stretch: &Stretch) -> Vec<Moved> {
         let steps = (stretch.period / STEP).round().max(1.0);
         let dt = stretch.period / steps;
         let mut now = Moved { way: 0.0, speed: stretch.own[0].speed };
-        std::array::from_fn(|second| {
+        let after_look = |look: usize| {
             for step in 0..steps as u32 {
-                let leader = stretch.leader.as_ref().map(|it| [&it[second], &it[second + 1]]);
+                let leader = stretch.leader.get(look).zip(stretch.leader.get(look + 1));
                 let ahead = leader.map(|it| between(it, f64::from(step) / steps, stretch.period));
                 now = after(now, self.acceleration(now.speed, ahead.map(|it| it.nearer(now.way)), dt), dt);
             }
             now
-        })
+        };
+        (0..stretch.length()).map(after_look).collect()
     }
 
     /// What the simulator's driver would choose [m/s²].
@@ -75,7 +76,7 @@ fn after(now: Moved, acceleration: f64, dt: f64) -> Moved {
 
 /// The leader at a `share` of the `period` [s] between two looks, as seen from the start of the stretch: the cubic
 /// through both places and speeds (Hermite).
-fn between([from, to]: [&Lead; 2], share: f64, period: f64) -> Ahead {
+fn between((from, to): (&Lead, &Lead), share: f64, period: f64) -> Ahead {
     let (moved, rest) = (to.rear - from.rear, 1.0 - share);
     let gap = from.rear
         + moved * share * share * (3.0 - 2.0 * share)
@@ -97,9 +98,9 @@ mod tests {
         Follower { model: FollowingModel::IdmPlus(model), comfortable: 2.0, desired: 30.0, strength: 3.0 }
     }
 
-    fn stretch(leader: Option<[Lead; SECONDS + 1]>, speed: f64) -> Stretch {
-        let own = [Moved { way: 0.0, speed }; SECONDS + 1];
-        Stretch { period: 1.0, leader: leader.map(Box::new), own, ..Stretch::default() }
+    /// Eight seconds from this speed on.
+    fn stretch(leader: Vec<Lead>, speed: f64) -> Stretch {
+        Stretch { period: 1.0, leader, own: vec![Moved { way: 0.0, speed }; 9], ..Stretch::default() }
     }
 
     #[test]
@@ -112,7 +113,7 @@ mod tests {
         assert!((moved.way - 1.509375).abs() < 1e-12);
         // v' = 2 (1 − (v/30)⁴) from 15 on: artanh(v/30) + arctan(v/30) = 4t/30 + artanh ½ + arctan ½, which is 26.2918
         // m/s after 8 s. A step of .1 s overshoots a little.
-        let reached = driver.predicted(&stretch(None, 15.0))[7].speed;
+        let reached = driver.predicted(&stretch(Vec::new(), 15.0))[7].speed;
         assert!((0.0..0.05).contains(&(reached - 26.2918)), "{reached}");
     }
 
@@ -120,7 +121,7 @@ mod tests {
     fn a_driver_in_equilibrium_stays_there() {
         // s₀ + vT = 3 + 10 · 1.2 behind a leader at 10 m/s.
         let lead = |second: usize| Lead { rear: 15.0 + 10.0 * second as f64, speed: 10.0, acceleration: 0.0 };
-        let moved = follower(IdmPlus::default()).predicted(&stretch(Some(std::array::from_fn(lead)), 10.0));
+        let moved = follower(IdmPlus::default()).predicted(&stretch((0..9).map(lead).collect(), 10.0));
         for (second, it) in (1..).zip(moved) {
             assert!((it.way - 10.0 * f64::from(second)).abs() < 1e-9 && (it.speed - 10.0).abs() < 1e-9);
         }
@@ -131,7 +132,7 @@ mod tests {
         // From 10 m/s at −2 m/s²: after .3 s 2.91 m further at 9.4 m/s.
         let from = Lead { rear: 5.0, speed: 10.0, acceleration: -2.0 };
         let to = Lead { rear: 14.0, speed: 8.0, acceleration: -2.0 };
-        let ahead = between([&from, &to], 0.3, 1.0);
+        let ahead = between((&from, &to), 0.3, 1.0);
         assert!((ahead.gap - 7.91).abs() < 1e-12 && (ahead.speed - 9.4).abs() < 1e-12, "{ahead:?}");
         assert_eq!(ahead.acceleration, -2.0);
     }

@@ -3,10 +3,10 @@
 use laneweave_models::Style;
 use rayon::prelude::*;
 
-use super::errors::{Errors, Off, SIZE, errors, kind};
+use super::errors::{Errors, Off, errors, kind};
 use super::numbers::{JAM_GAP, numbers, with_numbers};
 use super::predict::{Follower, Moved};
-use super::stretch::{Followed, SECONDS, Stretch};
+use super::stretch::{Stretch, Stretches};
 use crate::observe::{Shown, distribution, moments};
 
 /// The parameters: logarithms of T, s₀, a and b, and how much of its own time gap a driver keeps.
@@ -50,7 +50,7 @@ impl<'a> Problem<'a> {
     /// Desired speeds come from the whole recording.
     pub(super) fn of(
         style: &'a Style,
-        drivers: &'a [Followed],
+        drivers: &'a [Stretches],
         counts: impl Fn(usize) -> bool,
     ) -> Option<Problem<'a>> {
         let prior = numbers(&style.follow)?;
@@ -58,11 +58,11 @@ impl<'a> Problem<'a> {
         let shown: Vec<&Shown> = counting().filter_map(|it| it.1.shown.as_ref()).collect();
         let desired = distribution(&shown);
         let cases: Vec<Case> = counting()
-            .flat_map(|(driver, followed)| {
-                let factor = factor(followed.shown.as_ref(), desired);
+            .flat_map(|(driver, stretches)| {
+                let factor = factor(stretches.shown.as_ref(), desired);
                 let case =
                     move |stretch: &'a Stretch| Case { driver, stretch, desired: factor * stretch.allowed };
-                followed.stretches.iter().map(case)
+                stretches.all.iter().map(case)
             })
             .collect();
         let own = cases.iter().filter_map(|it| it.stretch.time_gap(prior[JAM_GAP]));
@@ -88,11 +88,11 @@ impl<'a> Problem<'a> {
         }
     }
 
-    pub(super) fn predicted(&self, case: &Case, parameters: &Parameters) -> [Moved; SECONDS] {
+    pub(super) fn predicted(&self, case: &Case, parameters: &Parameters) -> Vec<Moved> {
         self.follower(case, parameters).predicted(case.stretch)
     }
 
-    pub(super) fn errors(&self, case: &Case, parameters: &Parameters) -> [f64; SIZE] {
+    pub(super) fn errors(&self, case: &Case, parameters: &Parameters) -> Vec<f64> {
         errors(&self.predicted(case, parameters), case.stretch)
     }
 

@@ -6,9 +6,10 @@
 
 use laneweave_models::Style;
 
+use super::episode::Followed;
 use super::predict::{Follower, Moved};
 use super::problem::{Case, PARAMETERS, Parameters, Problem, factor};
-use super::stretch::{Followed, SECONDS, Stretch};
+use super::stretch::{Stretch, Stretches, stretches};
 use crate::held_out::{Difference, Folds, interval};
 use crate::resample::{folds, resampled_drivers};
 
@@ -48,22 +49,24 @@ struct Scored {
     wrong: [[Wrong; 3]; 3],
 }
 
-/// The scores of all drivers, each predicted by what was fitted to those of other parts, from `start` on; none if
-/// nothing can be fitted.
+/// The scores of all drivers in stretches as long as the last horizon, each predicted by what was fitted to the stretches
+/// `cut` of those of other parts, from `start` on; none if nothing can be fitted.
 pub(super) fn scores(
     style: &Style,
     drivers: &[Followed],
+    cut: &[Stretches],
     start: Parameters,
     asked: &Folds,
 ) -> Vec<FollowingScore> {
     let folds = folds(drivers.len(), asked.parts, asked.seed, 0);
+    let short = stretches(drivers, HORIZONS[HORIZONS.len() - 1]);
     let of = |part: usize| {
-        let problem = Problem::of(style, drivers, |it| folds[it] != part)?;
+        let problem = Problem::of(style, cut, |it| folds[it] != part)?;
         let all: [usize; PARAMETERS] = std::array::from_fn(|it| it);
         let fitted = problem.maximum(start, &all, None)?.at;
         let mut scored = Vec::new();
-        for (driver, followed) in drivers.iter().enumerate().filter(|it| folds[it.0] == part) {
-            for stretch in &followed.stretches {
+        for (driver, stretches) in short.iter().enumerate().filter(|it| folds[it.0] == part) {
+            for stretch in &stretches.all {
                 let desired = factor(stretch.shown.as_ref(), problem.desired) * stretch.allowed;
                 let by_fit = problem.predicted(&Case { driver, stretch, desired }, &fitted);
                 scored.push(Scored::of(driver, stretch, [by_fit, by_style(style, stretch), steady(stretch)]));
@@ -78,7 +81,7 @@ pub(super) fn scores(
 }
 
 /// As a driver of `style` would go on.
-fn by_style(style: &Style, stretch: &Stretch) -> [Moved; SECONDS] {
+fn by_style(style: &Style, stretch: &Stretch) -> Vec<Moved> {
     let follower = Follower {
         model: style.follow,
         comfortable: style.manner.comfortable_deceleration,
@@ -89,14 +92,15 @@ fn by_style(style: &Style, stretch: &Stretch) -> [Moved; SECONDS] {
 }
 
 /// At the speed of the start.
-fn steady(stretch: &Stretch) -> [Moved; SECONDS] {
+fn steady(stretch: &Stretch) -> Vec<Moved> {
     let speed = stretch.own[0].speed;
-    std::array::from_fn(|it| Moved { way: speed * stretch.period * (it + 1) as f64, speed })
+    let at = |it: usize| Moved { way: speed * stretch.period * it as f64, speed };
+    (1..=stretch.length()).map(at).collect()
 }
 
 impl Scored {
-    fn of(driver: usize, stretch: &Stretch, predicted: [[Moved; SECONDS]; 3]) -> Scored {
-        let wrong = |predicted: [Moved; SECONDS]| {
+    fn of(driver: usize, stretch: &Stretch, predicted: [Vec<Moved>; 3]) -> Scored {
+        let wrong = |predicted: Vec<Moved>| {
             HORIZONS.map(|it| Wrong {
                 distance: (predicted[it - 1].way - stretch.own[it].way).abs(),
                 speed: (predicted[it - 1].speed - stretch.own[it].speed).abs(),

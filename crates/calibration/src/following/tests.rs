@@ -4,9 +4,10 @@ use laneweave_models::change::{LaneChangeModel, Mobil};
 use laneweave_models::follow::{FollowingModel, IdmPlus, Krauss};
 use laneweave_models::{Manner, Style};
 
+use super::episode::{Episode, Followed, Seen};
 use super::fit::{NotFitted, fit};
 use super::predict::{Follower, Moved};
-use super::stretch::{Followed, Lead, SECONDS, Stretch};
+use super::stretch::{Lead, Stretch};
 use crate::held_out::Folds;
 
 const FOLDS: Folds = Folds { repetitions: 1, parts: 3, draws: 50, seed: 1 };
@@ -41,7 +42,10 @@ fn leader(driver: usize, share: f64, time: f64) -> Lead {
     }
 }
 
-/// What is seen of drivers who follow such leaders for a minute, with T as `time_gap` says of each.
+/// So long are drivers seen [s].
+const SECONDS: usize = 96;
+
+/// What is seen of drivers who follow such leaders, with T as `time_gap` says of each.
 fn followed(share: f64, time_gap: impl Fn(usize) -> f64) -> Vec<Followed> {
     let of = |driver: usize| {
         let model = IdmPlus { time_gap: time_gap(driver), ..TRUE };
@@ -53,29 +57,18 @@ fn followed(share: f64, time_gap: impl Fn(usize) -> f64) -> Vec<Followed> {
         };
         let first = leader(driver, share, 0.0);
         let gap = model.jam_gap + model.time_gap * first.speed;
-        let mut now = Moved { way: first.rear - gap, speed: first.speed };
-        let mut stretches = Vec::new();
-        for number in 0..12 {
-            let time = |it: usize| (number * SECONDS + it) as f64;
-            let lead = |it: usize| {
-                let lead = leader(driver, share, time(it));
-                Lead { rear: lead.rear - now.way, ..lead }
-            };
-            let mut stretch = Stretch {
-                period: 1.0,
-                leader: Some(Box::new(std::array::from_fn(lead))),
-                allowed: 30.0,
-                strength: 3.0,
-                ..Stretch::default()
-            };
-            stretch.own[0] = Moved { way: 0.0, speed: now.speed };
-            let moved = follower.predicted(&stretch);
-            stretch.own[1..].copy_from_slice(&moved);
-            let last = stretch.own[SECONDS];
-            now = Moved { way: now.way + last.way, speed: last.speed };
-            stretches.push(stretch);
-        }
-        Followed { stretches, shown: None }
+        let start = Moved { way: 0.0, speed: first.speed };
+        let behind = |second: usize| {
+            let lead = leader(driver, share, second as f64);
+            Lead { rear: lead.rear - first.rear + gap, ..lead }
+        };
+        let leader: Vec<Lead> = (0..=SECONDS).map(behind).collect();
+        let own = vec![start; leader.len()];
+        let whole = Stretch { period: 1.0, own, leader: leader.clone(), strength: 3.0, ..Stretch::default() };
+        let own = std::iter::once(start).chain(follower.predicted(&whole));
+        let seen = own.zip(leader).map(|(own, lead)| Seen { own, leader: Some(lead), shown: None }).collect();
+        let episodes = vec![Episode { period: 1.0, allowed: 30.0, strength: 3.0, seen }];
+        Followed { episodes, shown: None }
     };
     (0..40).map(of).collect()
 }
@@ -90,7 +83,7 @@ fn the_numbers_of_drivers_who_are_seen_exactly_come_back() {
         assert!(number.is_identified && (number.estimate / exact - 1.0).abs() < 5e-3, "{number:?}");
     }
     assert!(fit.own.abs() < 0.01 && fit.time_gap_spread < 0.01, "{} {}", fit.own, fit.time_gap_spread);
-    assert_eq!((fit.drivers, fit.stretches, fit.seconds), (40, 480, 480.0 * SECONDS as f64));
+    assert_eq!((fit.drivers, fit.stretches, fit.length), (40, 480, 8.0));
     assert_eq!(fit.draws.len(), 5);
     // Who knows the numbers is off by less than a centimetre; whoever takes the speed as constant by much more.
     let last = &fit.scores[2];

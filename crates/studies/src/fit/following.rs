@@ -14,6 +14,8 @@ pub struct FollowingReport {
     pub drivers: usize,
     /// The time of that [s].
     pub seconds: f64,
+    /// The length of the stretches into which it is cut [s].
+    pub stretch_s: f64,
     /// T, s₀, a and b of the car-following model, and the median speed factor.
     pub numbers: Vec<FollowingNumber>,
     /// How much of the time gap that it has a driver keeps: 0 if all seek the same one, 1 if each seeks its own.
@@ -92,7 +94,8 @@ impl FollowingReport {
         FollowingReport {
             not_fitted: None,
             drivers: fit.drivers,
-            seconds: fit.seconds.round(),
+            seconds: (fit.stretches as f64 * fit.length).round(),
+            stretch_s: fit.length,
             numbers: fit.numbers.iter().chain([&fit.speed_factor]).map(FollowingNumber::of).collect(),
             own_share: fit.own,
             own_share_interval: fit.own_interval,

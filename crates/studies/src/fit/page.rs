@@ -206,7 +206,10 @@ fn following(report: &FitReport) -> Section {
         ("prior", Align::Numbers),
         ("identified", Align::Words),
     ];
-    let what = format!("Fitted to {} drivers in {:.0} s.", following.drivers, following.seconds);
+    let what = format!(
+        "Fitted to {} drivers in {:.0} s, in stretches of {:.0} s.",
+        following.drivers, following.seconds, following.stretch_s
+    );
     let mut numbers = Table::new(what, &columns);
     for it in &following.numbers {
         let interval = format!("{:.3} to {:.3}", it.interval[0], it.interval[1]);
@@ -215,8 +218,8 @@ fn following(report: &FitReport) -> Section {
         numbers.row(cells.into_iter().chain([format!("{:.3}", it.prior), identified.to_owned()]));
     }
     section.table(numbers).text(following.own()).table(followed(report)).text(
-        "Drivers are simulated through stretches of eight seconds in which they follow one leader, or nobody, behind the leader as \
-         recorded. A number is identified if its standard error is at most half of the prior's and the likelihood falls significantly to \
+        "Drivers are simulated through stretches of equal length in which they follow one leader, or nobody, behind the leader as \
+         recorded. Stretches are as long as enough drivers show. A number is identified if its standard error is at most half of the prior's and the likelihood falls significantly to \
          half and to twice the estimate. A third of the drivers is held out in turn; of them only what came before a prediction is known.",
     )
 }

@@ -90,15 +90,20 @@ fn recorded_drivers_who_were_not_seen_are_predicted_better_than_by_a_constant_sp
     let fit = followers.fit(&style, &FOLDS, 0).expect("many drivers follow");
     assert!(fit.is_converged);
     for it in &fit.scores {
-        // Within a second a driver comes as far as at its speed, whatever it does.
-        let expected = if it.after < 2.0 { "not distinguishable" } else { "better" };
-        assert_eq!(it.over_constant.verdict(), expected, "{it:?}");
-        assert!(it.fitted.speed < it.constant.speed, "{it:?}");
+        // Within a second a driver comes as far as at its speed, whatever it does: errors of places decide.
+        match it.after < 2.0 {
+            true => assert!(it.over_constant.estimate.abs() < 0.05, "{it:?}"),
+            false => {
+                assert_eq!(it.over_constant.verdict(), "better", "{it:?}");
+                assert!(it.fitted.speed < it.constant.speed, "{it:?}");
+            }
+        }
         assert!(it.fitted.distance < it.prior.distance && it.fitted.speed < it.prior.speed, "{it:?}");
     }
     let number = |parameter| fit.numbers.iter().find(|it| it.parameter == parameter).expect("it is fitted");
     assert!((1.0..2.0).contains(&number(Parameter::TimeGap).estimate));
     assert!((1.0..5.0).contains(&number(Parameter::JamGap).estimate));
-    // Recorded drivers keep the time gap that they have more than they seek one that all have.
-    assert!(fit.own_interval[0] > 0.5, "{:?}", fit.own_interval);
+    // Even after twenty seconds recorded drivers still have much of the time gap that they had.
+    assert_eq!(fit.length, 20.0);
+    assert!(fit.own_interval[0] > 0.2, "{:?}", fit.own_interval);
 }
