@@ -33,6 +33,13 @@ impl Assumptions {
         self.is_fixed[Layout::of(design).spread()] = true;
         Assumptions { has_spread: false, ..self }
     }
+
+    /// The same with parameter `at` held at `value`.
+    pub fn holding(mut self, at: usize, value: f64) -> Assumptions {
+        self.prior.means[at] = value;
+        self.is_fixed[at] = true;
+        self
+    }
 }
 
 /// A fit of the hidden process.

@@ -7,6 +7,7 @@ use laneweave_scenario::Fault;
 use super::Observed;
 use super::accepted::Accepted;
 use super::following::FollowingReport;
+use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
 use super::report::{BetaReport, ByPaper, FitReport, Spread, WeightReport, WithLead};
 use super::style::styles;
@@ -53,7 +54,7 @@ impl FitReport {
             judged: None,
             styles: Vec::new(),
         };
-        report.data.not_identified = not_identified(study);
+        report.data.not_identified = not_identified(study, &report.data);
         (report.classes, report.styles) = styles(observed, study, &report)?;
         Ok(report)
     }
@@ -80,11 +81,14 @@ fn weight(it: &Fitted) -> WeightReport {
         standard_error: it.standard_error,
         interval: it.interval,
         prior: it.prior,
+        prior_deviation: it.prior_deviation,
         is_identified: it.is_identified,
+        matters: it.matters(),
+        value: it.value(),
     }
 }
 
-/// The weights; that of the route has the prior's proportion to that of speed.
+/// The weights; that of the route has the prior's proportion to that of speed, and is not told from it.
 pub(super) fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
     let mut weights: Vec<WeightReport> = study.weights.iter().map(weight).collect();
     let prior = observed.weights();
@@ -98,15 +102,22 @@ pub(super) fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
             standard_error: ratio * speed.standard_error,
             interval: speed.interval.map(|it| ratio * it),
             prior: prior.route,
+            prior_deviation: ratio * speed.prior_deviation,
             is_identified: false,
+            matters: false,
+            value: ratio * speed.value,
         },
     );
     weights
 }
 
-/// The names of what the recordings do not tell.
-fn not_identified(study: &Study) -> Vec<&'static str> {
-    let weights = study.weights.iter().filter(|it| !it.is_identified && it.name != "keeping");
+/// The names of what the recordings do not tell. A wish for the slow side that nobody has, since the law does not want
+/// it, is not among them.
+fn not_identified(study: &Study, plan: &Plan) -> Vec<&'static str> {
+    let never_differs =
+        |name: &str| plan.expected.iter().any(|it| it.name == name && it.standard_error.is_none());
+    let is_open = |it: &&Fitted| !it.is_identified && !(it.name == "keeping" && never_differs(it.name));
+    let weights = study.weights.iter().chain([&study.theta]).filter(is_open);
     let beta = (!study.beta.is_identified).then_some("beta");
     let classes = study.mixture.is_none().then_some("classes");
     let always = ["route", "alpha"].into_iter();

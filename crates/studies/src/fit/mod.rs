@@ -91,7 +91,7 @@ impl Request {
             classes: Classes::Auto,
             by_paper: false,
             draws: 200,
-            repetitions: 10,
+            repetitions: 4,
             lead: None,
             position_error: None,
             seed: 1,

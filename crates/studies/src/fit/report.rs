@@ -84,8 +84,15 @@ pub struct WeightReport {
     pub interval: [f64; 2],
     /// The prior value.
     pub prior: f64,
-    /// Whether the recordings tell it.
+    /// The standard deviation of the prior.
+    pub prior_deviation: f64,
+    /// Whether the recordings tell it: its standard deviation is at most half of the prior's, and the likelihood falls
+    /// significantly on both sides.
     pub is_identified: bool,
+    /// Whether its interval excludes 0.
+    pub matters: bool,
+    /// What drives in the fitted style: the prior value, if the recordings do not tell the weight.
+    pub value: f64,
 }
 
 /// β of comfort by its profile likelihood.

@@ -19,7 +19,7 @@ impl FitReport {
 
 fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     report.data.write_counts(out)?;
-    writeln!(out, "\n  weight      estimate   95 % interval          prior")?;
+    writeln!(out, "\n  weight      estimate   95 % interval          prior    drives")?;
     for it in report.weights.iter().chain([&report.theta]) {
         write_weight(it, out)?;
     }
@@ -32,7 +32,7 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "Weights are in units of the choice noise. Not identified: {}.",
+        "Weights are in units of the choice noise. Not identified: {}. A weight matters if its interval excludes 0.",
         report.data.not_identified.join(", ")
     )?;
     if let Some(it) = &report.correction {
@@ -80,15 +80,26 @@ pub(super) fn correction(it: &Correction) -> String {
     )
 }
 
+/// What the recordings tell of a weight.
+pub(super) fn told(it: &WeightReport) -> String {
+    let identified = match (it.is_identified, it.name) {
+        (true, _) => "identified",
+        (false, "route") => "not identified: in the prior's proportion to speed",
+        (false, "theta") => "not identified",
+        (false, _) => "not identified: the prior's",
+    };
+    format!("{identified}{}", if it.matters { ", matters" } else { "" })
+}
+
 fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {
     let [lower, upper] = it.interval;
-    let open = match (it.is_identified, it.name) {
-        (true, _) => "",
-        (false, "route") => "   not identified: in the prior's proportion to speed",
-        (false, _) => "   not identified",
-    };
     let interval = format!("{lower:.2} to {upper:.2}");
-    writeln!(out, "  {:9} {:>10.2}   {interval:<20} {:>7.2}{open}", it.name, it.estimate, it.prior)
+    let (name, told) = (it.name, told(it));
+    writeln!(
+        out,
+        "  {name:9} {:>10.2}   {interval:<20} {:>7.2} {:>9.2}   {told}",
+        it.estimate, it.prior, it.value
+    )
 }
 
 fn write_by_paper(it: &ByPaper, out: &mut String) -> std::fmt::Result {
