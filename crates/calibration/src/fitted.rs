@@ -27,11 +27,11 @@ pub struct Fitted {
 }
 
 /// Half the width of a 95 % interval in standard errors.
-const HALF: f64 = 1.959_964;
+pub(crate) const HALF: f64 = 1.959_964;
 /// Half of the 95 % point of χ² with one degree of freedom.
 pub(crate) const SIGNIFICANT: f64 = 1.920_729;
 /// Most of the prior's standard deviation that is left of a number that is identified.
-const MOST_LEFT: f64 = 0.5;
+pub(crate) const MOST_LEFT: f64 = 0.5;
 
 impl Fitted {
     /// A number with its standard error and its `draws`, of which it is not yet known whether it is identified.

@@ -5,7 +5,8 @@
 //! likelihood of the hidden process free → wants → changes, with its gradient; `choice.rs` has that of choices which
 //! were observed exactly.
 //!
-//! [`following`] fits how drivers follow: the numbers of their car-following model.
+//! [`following`] fits how drivers follow: the numbers of their car-following model. [`gaps`] fits which gaps they
+//! accept.
 //!
 //! `study.rs` puts a fit of lane changes together: spreads of priors (`place_spread.rs`), the profile of β (`beta.rs`), bootstrap,
 //! what is identified (`fitted.rs`), classes (`classes.rs`), held-out drivers (`held_out.rs`) and what is supposed of
@@ -20,6 +21,7 @@ mod desire_model;
 mod extrapolation;
 mod fitted;
 pub mod following;
+pub mod gaps;
 mod held_out;
 mod matrix;
 mod maximise;

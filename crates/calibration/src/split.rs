@@ -130,7 +130,7 @@ impl Splits {
 }
 
 /// Who is seen while each part of each repetition is held out.
-fn by_driver(observations: &Observations, asked: &Folds) -> Vec<Vec<f64>> {
+pub(crate) fn by_driver(observations: &Observations, asked: &Folds) -> Vec<Vec<f64>> {
     let count = observations.drivers.len();
     let of = |repetition: u32| {
         let folds = folds(count, asked.parts, asked.seed, repetition);

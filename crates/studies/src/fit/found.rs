@@ -1,5 +1,6 @@
 //! From a study to the report of its fit.
 
+use laneweave_calibration::gaps::{GapFit, Wishes};
 use laneweave_calibration::observe::Observations;
 use laneweave_calibration::{DesireModel, Fitted, PaperGroup, Study};
 use laneweave_scenario::Fault;
@@ -7,6 +8,7 @@ use laneweave_scenario::Fault;
 use super::Observed;
 use super::accepted::Accepted;
 use super::following::FollowingReport;
+use super::gaps::{GapReport, with_limits};
 use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
 use super::report::{BetaReport, ByPaper, FitReport, Spread, WeightReport, WithLead};
@@ -19,6 +21,11 @@ impl FitReport {
         let logistic = laneweave_calibration::waiting::logistic;
         let parameter = |at: usize| study.fit.estimates[at];
         let accepted = Accepted::of(observations);
+        let gap_limits = accepted.limits(&observed.prior.typical);
+        let style = with_limits(&observed.prior.typical, gap_limits.as_ref());
+        let asked = observed.asked();
+        let wishes = Wishes::of_study(observations, study, &asked);
+        let gap_fit = GapFit::of(&wishes, &style, &asked.folds);
         let gaps = |all: &[[f64; 3]]| Spread::of(all.iter().map(|it| it[0]).collect());
         let durations = observations.changes.iter().filter_map(|it| it.duration).collect();
         let factors = observations.drivers.iter().filter(|it| it.desired.is_shown);
@@ -26,6 +33,7 @@ impl FitReport {
             data: observed.plan(),
             leads_s: observations.recordings.iter().map(|it| it.lead).collect(),
             following: FollowingReport::of(&observed.following),
+            gaps: GapReport::of(&gap_fit, &observed.sources.braking_behind()),
             weights: weights(observed, study),
             theta: weight(&study.theta),
             correction: None,
@@ -43,7 +51,7 @@ impl FitReport {
             durations_s: Spread::of(durations),
             lead_gaps_m: gaps(&accepted.lead),
             lag_gaps_m: gaps(&accepted.lag),
-            gap_limits: accepted.limits(&observed.prior.typical),
+            gap_limits,
             cooldown_s: observations.recordings.iter().map(|it| it.cooldown).fold(f64::INFINITY, f64::min),
             desired_speed_factors: Spread::of(factors.map(|it| it.desired.mean()).collect()),
             desired_speed_logs: desired_logs(observations),
@@ -116,7 +124,8 @@ pub(super) fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
 fn not_identified(study: &Study, plan: &Plan) -> Vec<&'static str> {
     let never_differs =
         |name: &str| plan.expected.iter().any(|it| it.name == name && it.standard_error.is_none());
-    let is_open = |it: &&Fitted| !it.is_identified && !(it.name == "keeping" && never_differs(it.name));
+    let is_hidden = |it: &Fitted| it.name == "keeping" && never_differs(it.name);
+    let is_open = |it: &&Fitted| !it.is_identified && !is_hidden(it);
     let weights = study.weights.iter().chain([&study.theta]).filter(is_open);
     let beta = (!study.beta.is_identified).then_some("beta");
     let classes = study.mixture.is_none().then_some("classes");

@@ -7,6 +7,7 @@ mod accepted;
 mod correct;
 mod following;
 mod found;
+mod gaps;
 mod judge;
 #[cfg(feature = "reports")]
 mod page;
@@ -32,6 +33,7 @@ use following::with_following;
 use sources::Sources;
 
 pub use following::{FollowingNumber, FollowingPrediction, FollowingReport, Off};
+pub use gaps::{BrakingReport, CriticalGapReport, GapReport, GapScoreReport};
 pub use judge::{Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
 #[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};

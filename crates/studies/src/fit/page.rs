@@ -5,6 +5,7 @@ use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
 use super::following::Off;
 use super::found::by_paper_terms;
+use super::gaps;
 use super::judge;
 use super::prediction::HeldOut;
 use super::report::{FitReport, Spread};
@@ -50,7 +51,10 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
             "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
              significantly, by 1.92 nats, on both sides.",
         ));
-    let page = page.section(following(report)).section(held_out_section(report));
+    let page = page
+        .section(following(report))
+        .section(gaps::section(&report.gaps))
+        .section(held_out_section(report));
     let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
     let page = match &report.judged {
         Some(judged) => page.section(judge::section(judged)),

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::following::FollowingReport;
+use super::gaps::GapReport;
 use super::judge::report::Judged;
 use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
@@ -20,6 +21,8 @@ pub struct FitReport {
     pub leads_s: Vec<Option<f64>>,
     /// How drivers follow.
     pub following: FollowingReport,
+    /// Which gaps drivers accept.
+    pub gaps: GapReport,
     /// The fitted weights in units of the choice noise.
     pub weights: Vec<WeightReport>,
     /// θ in units of the choice noise, at a place of the mean intercept.
