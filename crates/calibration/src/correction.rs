@@ -22,8 +22,8 @@ impl Study {
     }
 
     /// This study, moved as its intercept and weights move from `plain` to `corrected`, in the order of
-    /// [`Study::repeated`]. Intervals and draws become wider as the standard errors do. Classes stay as they are, and so
-    /// do weights that are held at the prior.
+    /// [`Study::repeated`]. Intervals and draws become wider as the standard errors do. Classes stay as they are, and
+    /// so do weights that are held at the prior.
     pub fn corrected(mut self, plain: &[Estimate], corrected: &[Estimate]) -> Study {
         let layout = self.layout();
         let parameters = [layout.intercept()].into_iter().chain(layout.slopes());

@@ -58,8 +58,8 @@ impl Difference {
 }
 
 impl Candidate {
-    /// Fits `model`, with prior `means` of its terms, to all drivers and to those who are not held out. What is supposed
-    /// of all drivers comes from those who are seen alone.
+    /// Fits `model`, with prior `means` of its terms, to all drivers and to those who are not held out. What is
+    /// supposed of all drivers comes from those who are seen alone.
     pub fn of(observations: &Observations, model: &DesireModel, means: &[f64], splits: &Splits) -> Candidate {
         let designs = |it: &Supposed| {
             let design = observations.design(&it.model(model));

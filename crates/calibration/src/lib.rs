@@ -8,9 +8,9 @@
 //! [`following`] fits how drivers follow: the numbers of their car-following model. [`gaps`] fits which gaps they
 //! accept.
 //!
-//! `study.rs` puts a fit of lane changes together: spreads of priors (`place_spread.rs`), the profile of β (`beta.rs`), bootstrap,
-//! what is identified (`fitted.rs`), classes (`classes.rs`), held-out drivers (`held_out.rs`) and what is supposed of
-//! them (`split.rs`). Gradients are added up in chunks of fixed size, so that
+//! `study.rs` puts a fit of lane changes together: spreads of priors (`place_spread.rs`), the profile of β (`beta.rs`),
+//! bootstrap, what is identified (`fitted.rs`), classes (`classes.rs`), held-out drivers (`held_out.rs`) and what is
+//! supposed of them (`split.rs`). Gradients are added up in chunks of fixed size, so that
 //! the number of threads changes nothing.
 
 mod beta;

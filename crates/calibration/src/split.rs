@@ -1,5 +1,5 @@
-//! Drivers who are seen, and what is supposed of all drivers by them alone: β, how much places differ, and how wide priors
-//! are. What is supposed in a prediction of drivers who are held out is never estimated from them.
+//! Drivers who are seen, and what is supposed of all drivers by them alone: β, how much places differ, and how wide
+//! priors are. What is supposed in a prediction of drivers who are held out is never estimated from them.
 
 use rayon::prelude::*;
 

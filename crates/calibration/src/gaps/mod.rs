@@ -8,8 +8,8 @@
 //! the accepted gap. Drivers who never change count, too: those with large critical gaps change less often.
 //!
 //! `offered.rs` has what gaps drivers were offered, look by look; `table.rs` has the likelihood of each driver for
-//! critical gaps on a grid; `problem.rs` and `fit.rs` find the distribution of the critical gaps, and `score.rs` says how
-//! well it predicts drivers who were not seen.
+//! critical gaps on a grid; `problem.rs` and `fit.rs` find the distribution of the critical gaps, and `score.rs` says
+//! how well it predicts drivers who were not seen.
 
 mod fit;
 mod offered;

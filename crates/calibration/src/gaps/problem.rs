@@ -20,7 +20,8 @@ pub(super) type Parameters = [f64; PARAMETERS];
 
 /// Standard deviation of the prior of the mean of the logarithms of critical gaps: a factor of 2.7 (ours).
 pub(super) const MEDIAN_PRIOR: f64 = 1.0;
-/// That of the logarithm of their standard deviation (ours), and its mean: the spread is about .5 (Toledo 2003 has .8 to
+/// That of the logarithm of their standard deviation (ours), and its mean: the spread is about .5 (Toledo 2003 has .8
+/// to
 /// 1.1 with what depends on the driver; from memory).
 pub(super) const SPREAD_PRIOR: f64 = 0.7;
 pub(super) const USUAL_SPREAD: f64 = 0.5;
@@ -130,8 +131,8 @@ impl<'a> Problem<'a> {
         (0..self.weights.len()).map(|driver| columns.iter().map(|it| it[driver]).collect()).collect()
     }
 
-    /// The inverse of the information by the squares of the drivers' scores, with that of the prior (Berndt, Hall, Hall,
-    /// Hausman 1974), over all parameters; 0 for those that are held.
+    /// The inverse of the information by the squares of the drivers' scores, with that of the prior (Berndt, Hall,
+    /// Hall, Hausman 1974), over all parameters; 0 for those that are held.
     pub(super) fn covariance(&self, at: &Parameters) -> Option<Matrix> {
         let inverse = self.inverse(&self.scores(at, &self.tables(at)))?;
         let mut whole = Matrix::zeros(PARAMETERS);

@@ -19,8 +19,8 @@ pub(super) type Pairs = [[f64; GRID]; GRID];
 /// How a driver gets from a wish to a change, whatever the gaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Going {
-    /// The logarithm of the odds of a desire is this plus so many times that of the supposed ones: what is supposed may be
-    /// too sure of itself.
+    /// The logarithm of the odds of a desire is this plus so many times that of the supposed ones: what is supposed may
+    /// be too sure of itself.
     pub(super) desire: [f64; 2],
     /// Chance that who waits gives up, per look.
     pub(super) gives_up: f64,

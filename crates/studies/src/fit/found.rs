@@ -6,9 +6,9 @@ use laneweave_calibration::{DesireModel, Fitted, PaperGroup, Study};
 use laneweave_scenario::Fault;
 
 use super::Observed;
-use super::accepted::Accepted;
+use super::accepted::{Accepted, with_limits};
 use super::following::FollowingReport;
-use super::gaps::{GapReport, with_limits};
+use super::gaps::GapReport;
 use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
 use super::report::{BetaReport, ByPaper, FitReport, Spread, WeightReport, WithLead};

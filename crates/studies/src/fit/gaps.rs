@@ -1,15 +1,9 @@
 //! Which gaps recorded drivers accept, as plain data.
 
 use laneweave_calibration::gaps::{CriticalGap, GapFit, GapScore, GapsNotFitted, SpreadOfGaps};
-use laneweave_models::{Parameter, Style};
-#[cfg(feature = "reports")]
-use laneweave_results::report::{Align, Section, Table};
+use laneweave_models::Parameter;
 use laneweave_study::quantile;
 use serde::Serialize;
-
-use super::report::GapLimits;
-#[cfg(feature = "reports")]
-use super::words::with_interval;
 
 /// Which gaps recorded drivers accept. Fields are added, never renamed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -155,60 +149,4 @@ impl BrakingReport {
             self.median_mps2, self.hardest_twentieth_mps2, self.cut_ins
         )
     }
-}
-
-/// `style` with the limits of a gap test that accepts nearly all recorded gaps, if there are any. Its critical gaps stay.
-pub(super) fn with_limits(style: &Style, limits: Option<&GapLimits>) -> Style {
-    let mut style = style.clone();
-    if let Some(limits) = limits {
-        style.safety.min_time_to_collision = limits.min_time_to_collision_s;
-        style.safety.max_deceleration = limits.max_deceleration_mps2;
-    }
-    style
-}
-
-#[cfg(feature = "reports")]
-/// The section of a report.
-pub(super) fn section(gaps: &GapReport) -> Section {
-    let section = Section::new("gaps", "Accepted gaps");
-    if let Some(why) = gaps.not_fitted {
-        return section.text(format!("Critical gaps are the prior style's: {why}."));
-    }
-    let columns = [
-        ("critical gap", Align::Words),
-        ("median [m]", Align::Numbers),
-        ("95 % interval", Align::Numbers),
-        ("prior [m]", Align::Numbers),
-        ("spread of logarithms", Align::Numbers),
-        ("identified", Align::Words),
-    ];
-    let mut table = Table::new(format!("Shown by {} lane changes.", gaps.changes), &columns);
-    for it in &gaps.critical {
-        let [lower, upper] = it.median_interval;
-        let [least, most] = it.spread_interval;
-        table.row([
-            it.name.key().to_owned(),
-            format!("{:.2}", it.median_m),
-            format!("{lower:.2} to {upper:.2}"),
-            format!("{:.2}", it.prior_m),
-            format!("{:.2} ({least:.2} to {most:.2})", it.spread),
-            (if it.is_identified { "yes" } else { "no: the style has the prior's" }).to_owned(),
-        ]);
-    }
-    let score = gaps.held_out.map(|it| {
-        format!(
-            "Held-out drivers: {:.3} nats per lane change by these, {:.3} by the prior's critical gaps; better by {}: {}.",
-            it.fitted,
-            it.prior,
-            with_interval(it.over_prior, it.over_prior_interval),
-            it.fitted_is
-        )
-    });
-    let braking = gaps.follower_braking.map(|it| it.to_text());
-    let section = score.into_iter().chain(braking).fold(section.table(table), Section::text);
-    section.text(
-        "Each driver has one critical lead gap and one critical lag gap; over the drivers they are lognormal. Drivers who wait for a gap show \
-         that the gaps which they let pass were too short; how long they waited is not seen, so the likelihood is the sum over all \
-         possibilities. The other limits of the gap test are those that accept nearly all recorded gaps.",
-    )
 }

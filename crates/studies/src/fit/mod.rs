@@ -8,6 +8,8 @@ mod correct;
 mod following;
 mod found;
 mod gaps;
+#[cfg(feature = "reports")]
+mod gaps_page;
 mod judge;
 #[cfg(feature = "reports")]
 mod page;

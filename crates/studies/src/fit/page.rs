@@ -5,7 +5,7 @@ use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
 use super::following::Off;
 use super::found::by_paper_terms;
-use super::gaps;
+use super::gaps_page;
 use super::judge;
 use super::prediction::HeldOut;
 use super::report::{FitReport, Spread};
@@ -53,7 +53,7 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         ));
     let page = page
         .section(following(report))
-        .section(gaps::section(&report.gaps))
+        .section(gaps_page::section(&report.gaps))
         .section(held_out_section(report));
     let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
     let page = match &report.judged {
