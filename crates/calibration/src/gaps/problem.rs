@@ -10,8 +10,9 @@ use crate::waiting::{logistic, logit};
 
 /// Number of parameters, and where they stand: mean and logarithm of the standard deviation of the logarithms of
 /// critical lead and lag gaps; then what is added to the logits of supposed desires, and the logarithm of what they are
-/// multiplied by; and the logits of giving up, going and going anyway, per look.
-pub(super) const PARAMETERS: usize = 9;
+/// multiplied by; the logits of giving up, going and going anyway, per look; and the logarithm of how much drivers differ
+/// in what is added.
+pub(super) const PARAMETERS: usize = 10;
 /// Those of the critical gaps.
 pub(super) const GAPS: usize = 4;
 
@@ -21,8 +22,7 @@ pub(super) type Parameters = [f64; PARAMETERS];
 /// Standard deviation of the prior of the mean of the logarithms of critical gaps: a factor of 2.7 (ours).
 pub(super) const MEDIAN_PRIOR: f64 = 1.0;
 /// That of the logarithm of their standard deviation (ours), and its mean: the spread is about .5 (Toledo 2003 has .8
-/// to
-/// 1.1 with what depends on the driver; from memory).
+/// to 1.1 with what depends on the driver; from memory).
 pub(super) const SPREAD_PRIOR: f64 = 0.7;
 pub(super) const USUAL_SPREAD: f64 = 0.5;
 /// Share of the promised gain that a step has to bring (Armijo).
@@ -59,8 +59,8 @@ impl<'a> Problem<'a> {
         let [lead, lag] = before.medians.map(libm::log);
         let spread = libm::log(USUAL_SPREAD);
         // Most drivers go at once into a gap that suits them; a gap test is no law of nature (ours).
-        let means = [lead, spread, lag, spread, 0.0, 0.0, logit(per_look), logit(0.7), logit(0.1)];
-        let deviations = [MEDIAN_PRIOR, SPREAD_PRIOR, MEDIAN_PRIOR, SPREAD_PRIOR, 1.0, 0.5, 0.7, 1.5, 2.0];
+        let means = [lead, spread, lag, spread, 0.0, 0.0, logit(per_look), logit(0.7), logit(0.1), libm::log(0.7)];
+        let deviations = [MEDIAN_PRIOR, SPREAD_PRIOR, MEDIAN_PRIOR, SPREAD_PRIOR, 1.0, 0.5, 0.7, 1.5, 2.0, 0.7];
         let precisions = deviations.iter().map(|it| 1.0 / (it * it)).collect();
         Problem {
             offered,
@@ -92,6 +92,7 @@ impl<'a> Problem<'a> {
             goes: logistic(at[7]),
             goes_anyway: logistic(at[8]),
             waits: self.waits,
+            unlike: libm::exp(at[9]),
         }
     }
 

@@ -13,6 +13,10 @@ const STEP: f64 = 0.25;
 /// the time at which a change begins (ours).
 const SHARPNESS: f64 = 0.12;
 
+/// Three points with their weights that have the moments of a standard normal distribution (Gauss–Hermite).
+const UNLIKE: [(f64, f64); 3] =
+    [(-1.732_050_807_568_877_2, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.732_050_807_568_877_2, 1.0 / 6.0)];
+
 /// A number for each pair of a critical lead gap (outer) and a critical lag gap (inner).
 pub(super) type Pairs = [[f64; GRID]; GRID];
 
@@ -22,6 +26,8 @@ pub(super) struct Going {
     /// The logarithm of the odds of a desire is this plus so many times that of the supposed ones: what is supposed may
     /// be too sure of itself.
     pub(super) desire: [f64; 2],
+    /// Standard deviation of the first of them over the drivers: some want to change more often than is supposed.
+    pub(super) unlike: f64,
     /// Chance that who waits gives up, per look.
     pub(super) gives_up: f64,
     /// Chance that who waits goes into an acceptable gap, per look.
@@ -73,14 +79,23 @@ fn suits(gap: f64) -> [f64; GRID] {
 }
 
 impl Table {
-    /// Of the driver with these spells.
+    /// Of the driver with these spells, in the mean over how often drivers want to change.
     pub(super) fn of(spells: &[GapSpell], going: &Going) -> Table {
-        let mut logs: Pairs = [[0.0; GRID]; GRID];
-        for spell in spells {
-            add(spell, going, &mut logs);
+        let mut each: [(Pairs, f64); 3] = UNLIKE.map(|(at, chance)| {
+            let [more, slope] = going.desire;
+            let going = Going { desire: [more + going.unlike * at, slope], ..*going };
+            let mut logs: Pairs = [[0.0; GRID]; GRID];
+            spells.iter().for_each(|it| add(it, &going, &mut logs));
+            (logs, chance)
+        });
+        let all = each.iter().flat_map(|(logs, _)| logs.as_flattened());
+        let log = all.copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut likelihoods: Pairs = [[0.0; GRID]; GRID];
+        for (logs, chance) in &mut each {
+            let sums = likelihoods.as_flattened_mut().iter_mut();
+            sums.zip(logs.as_flattened()).for_each(|(sum, it)| *sum += *chance * libm::exp(it - log));
         }
-        let log = logs.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
-        Table { likelihoods: logs.map(|row| row.map(|it| libm::exp(it - log))), log }
+        Table { likelihoods, log }
     }
 
     /// The logarithm of the likelihood for critical gaps with these shares.
