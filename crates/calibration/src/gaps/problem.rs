@@ -10,8 +10,8 @@ use crate::waiting::{logistic, logit};
 
 /// Number of parameters, and where they stand: mean and logarithm of the standard deviation of the logarithms of
 /// critical lead and lag gaps; then what is added to the logits of supposed desires, and the logarithm of what they are
-/// multiplied by; the logits of giving up, going and going anyway, per look; and the logarithm of how much drivers differ
-/// in what is added.
+/// multiplied by; the logits of giving up, going and going anyway, per look; and the logarithm of how much drivers
+/// differ in what is added.
 pub(super) const PARAMETERS: usize = 10;
 /// Those of the critical gaps.
 pub(super) const GAPS: usize = 4;
