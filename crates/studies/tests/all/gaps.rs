@@ -100,7 +100,7 @@ const NEAR: f64 = 0.1;
 
 #[test]
 fn the_share_of_simulated_drivers_who_accept_a_gap_comes_back_at_its_quartiles() {
-    let (recordings, seconds) = size().pick((1, 400.0), (6, 900.0));
+    let (recordings, seconds) = size().pick((1, 600.0), (6, 900.0));
     let fit = fitted(recordings, seconds, 1);
     for (kind, gap) in fit.gaps.iter().enumerate() {
         assert!(CriticalGap::is_identified(gap), "{gap:?}");
