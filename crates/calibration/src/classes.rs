@@ -144,7 +144,8 @@ pub fn are_two(
 ) -> bool {
     let drivers = design.drivers.len();
     // A threshold, a chance to give up, gap acceptance with its intercept, and a share.
-    let parameters = design.terms + GAP_TERMS + 4;
+    let weights = fit.layout.slopes().filter(|it| !assumptions.is_fixed[*it]).count();
+    let parameters = weights + GAP_TERMS + 4;
     let more = parameters as f64 * libm::log(drivers as f64);
     if 2.0 * (mixture.log_likelihood - fit.log_likelihood) <= more {
         return false;

@@ -3,7 +3,7 @@
 use crate::desire_model::{DesireModel, assumptions};
 use crate::extrapolation::Estimate;
 use crate::observe::Observations;
-use crate::study::{Asked, Fitted, Study};
+use crate::study::{Asked, Study};
 use crate::waiting::Layout;
 
 impl Study {
@@ -12,7 +12,8 @@ impl Study {
     /// scores.
     pub fn repeated(&self, observations: &Observations, asked: &Asked) -> Vec<Estimate> {
         let design = observations.design(&DesireModel::Mcdm { beta: self.beta.beta });
-        let assumptions = assumptions(&design, &asked.prior.terms(), self.effect, &self.spread);
+        let assumptions = assumptions(&design, &asked.prior.terms(), self.effect, &self.spread)
+            .holding_untold(Layout::of(&design), &self.weights);
         let weights = vec![1.0; design.drivers.len()];
         let similar = Some(&self.fit).filter(|it| it.layout == Layout::of(&design));
         let fit = design.fit_roughly(&assumptions.without_spread(&design), &weights, similar);
@@ -21,12 +22,16 @@ impl Study {
     }
 
     /// This study, moved as its intercept and weights move from `plain` to `corrected`, in the order of
-    /// [`Study::repeated`]. Intervals and draws become wider as the standard errors do. Classes stay as they are.
+    /// [`Study::repeated`]. Intervals and draws become wider as the standard errors do. Classes stay as they are, and
+    /// so do weights that are held at the prior.
     pub fn corrected(mut self, plain: &[Estimate], corrected: &[Estimate]) -> Study {
         let layout = self.layout();
         let parameters = [layout.intercept()].into_iter().chain(layout.slopes());
         for (number, at) in parameters.enumerate() {
             let (plain, corrected) = (plain[number], corrected[number]);
+            if number > 0 && !self.weights[number - 1].is_identified {
+                continue;
+            }
             let by = corrected.value - plain.value;
             let wider = corrected.standard_error / plain.standard_error;
             let before = self.fit.estimates[at];
@@ -40,14 +45,5 @@ impl Study {
             }
         }
         self
-    }
-}
-
-impl Fitted {
-    fn move_by(&mut self, by: f64, wider: f64) {
-        let before = self.estimate;
-        self.estimate += by;
-        self.standard_error *= wider;
-        self.interval = self.interval.map(|it| before + by + wider * (it - before));
     }
 }

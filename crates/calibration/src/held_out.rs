@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use crate::desire_model::{DesireModel, assumptions};
 use crate::measures::Prediction;
 use crate::observe::Observations;
-use crate::place_spread::{PlaceSpread, effect};
-use crate::resample::{folds, resampled_drivers, shuffled};
+use crate::resample::{resampled_drivers, shuffled};
+use crate::split::{Splits, Supposed};
 use crate::waiting::{Assumptions, Design, WaitingFit};
 
 /// How drivers are held out.
@@ -58,18 +58,14 @@ impl Difference {
 }
 
 impl Candidate {
-    /// Fits `model`, with prior `means` of its terms, to all drivers and to those who are not held out.
-    pub fn of(
-        observations: &Observations,
-        model: &DesireModel,
-        (means, spread): (&[f64], &PlaceSpread),
-        folds: &Folds,
-    ) -> Candidate {
-        let design = observations.design(model);
-        let assumptions = assumptions(&design, means, effect(&design, means, spread), spread);
-        let assumptions = assumptions.without_spread(&design);
-        let by_driver = Candidate::fitted(model.name().into(), [&design, &design], &assumptions, folds);
-        by_driver.with_sites(observations, [&design, &design], &assumptions)
+    /// Fits `model`, with prior `means` of its terms, to all drivers and to those who are not held out. What is
+    /// supposed of all drivers comes from those who are seen alone.
+    pub fn of(observations: &Observations, model: &DesireModel, means: &[f64], splits: &Splits) -> Candidate {
+        let designs = |it: &Supposed| {
+            let design = observations.design(&it.model(model));
+            [design.clone(), design]
+        };
+        Candidate::fitted(model.name().into(), (observations, splits), (model, means), designs)
     }
 
     /// The same model, fitted to changes that are shuffled over all seconds and sides, and asked to predict the real
@@ -77,90 +73,50 @@ impl Candidate {
     pub fn shuffled(
         observations: &Observations,
         model: &DesireModel,
-        (means, spread): (&[f64], &PlaceSpread),
-        folds: &Folds,
+        means: &[f64],
+        (splits, seed): (&Splits, u64),
     ) -> Candidate {
-        let design = observations.design(model);
-        let assumptions = assumptions(&design, means, effect(&design, means, spread), spread);
-        let assumptions = assumptions.without_spread(&design);
-        let order = shuffled(design.gaps.len(), folds.seed, u32::MAX >> 1);
-        let width = design.nodes * design.terms;
-        let others = Design {
-            values: order
-                .iter()
-                .flat_map(|row| &design.values[row * width..(row + 1) * width])
-                .copied()
-                .collect(),
-            gaps: order.iter().map(|row| design.gaps[*row]).collect(),
-            places: order.iter().map(|row| design.places[*row]).collect(),
-            ..design.clone()
+        let designs = |it: &Supposed| {
+            let design = observations.design(&it.model(model));
+            [with_shuffled_rows(&design, seed), design]
         };
-        let by_driver = Candidate::fitted("shuffled".into(), [&others, &design], &assumptions, folds);
-        by_driver.with_sites(observations, [&others, &design], &assumptions)
+        Candidate::fitted("shuffled".into(), (observations, splits), (model, means), designs)
     }
 
-    /// Fits to the first of two designs, and predicts the second.
+    /// Fits to the first of the two designs by each split, and predicts the second.
     fn fitted(
         name: String,
-        [design, real]: [&Design; 2],
-        assumptions: &Assumptions,
-        asked: &Folds,
+        (observations, splits): (&Observations, &Splits),
+        of: (&DesireModel, &[f64]),
+        designs: impl Fn(&Supposed) -> [Design; 2] + Sync,
     ) -> Candidate {
-        let count = design.drivers.len();
-        let fit = design.fit_roughly(assumptions, &vec![1.0; count], None);
-        let jobs: Vec<(u32, usize)> = (0..asked.repetitions)
-            .flat_map(|repetition| (0..asked.parts).map(move |part| (repetition, part)))
-            .collect();
-        let scores = |(repetition, part): &(u32, usize)| {
+        let of_all = Task::of(&splits.all, of, designs(&splits.all));
+        let fit = of_all.design.fit_roughly(&of_all.assumptions, &splits.all.seen, None);
+        let scores = |(number, split): (usize, &Supposed)| {
+            let task = Task::of(split, of, designs(split));
+            let estimates =
+                task.design.refit(&task.assumptions, &split.seen, &fit.estimates, &fit.covariance);
+            let held_out = split.held_out();
             // The predictions second by second are kept once.
-            let is_first = *repetition == 0;
-            let folds = folds(count, asked.parts, asked.seed, *repetition);
-            let weights: Vec<f64> = folds.iter().map(|it| if it == part { 0.0 } else { 1.0 }).collect();
-            let estimates = design.refit(assumptions, &weights, &fit.estimates, &fit.covariance);
-            let held_out: Vec<f64> = weights.iter().map(|it| 1.0 - it).collect();
-            let predictions = if is_first { real.predictions(&estimates, &held_out) } else { Vec::new() };
-            (real.log_likelihoods(&estimates, assumptions.has_spread, &held_out), predictions)
+            let is_first = number < splits.parts;
+            let predictions =
+                if is_first { task.real.predictions(&estimates, &held_out) } else { Vec::new() };
+            (task.real.log_likelihoods(&estimates, task.assumptions.has_spread, &held_out), predictions)
         };
-        let scores: Vec<(Vec<f64>, Vec<Prediction>)> = jobs.par_iter().map(scores).collect();
-        let (mut held_out, mut predictions) = (vec![0.0; count], Vec::new());
+        let scores: Vec<(Vec<f64>, Vec<Prediction>)> =
+            splits.by_driver.par_iter().enumerate().map(scores).collect();
+        let (mut held_out, mut predictions) = (vec![0.0; observations.drivers.len()], Vec::new());
+        let repetitions = (splits.by_driver.len() / splits.parts.max(1)).max(1) as f64;
         for (score, predicted) in scores {
             predictions.extend(predicted);
-            held_out.iter_mut().zip(score).for_each(|(it, log)| *it += log / f64::from(asked.repetitions));
+            held_out.iter_mut().zip(score).for_each(|(it, log)| *it += log / repetitions);
         }
-        Candidate { name, fit, held_out, held_out_by_site: Vec::new(), predictions }
-    }
-
-    /// Holds out each site in turn, if there are several. What a model knows of other sites is how drivers weigh
-    /// things, not how often they change lanes here: the intercept is estimated again, at the site itself, for every
-    /// model alike. Of its places nothing is known.
-    fn with_sites(
-        self,
-        observations: &Observations,
-        [design, real]: [&Design; 2],
-        assumptions: &Assumptions,
-    ) -> Candidate {
-        if observations.sites < 2 {
-            return self;
-        }
-        let of = |site: u32| {
-            let is_here = |here: bool| {
-                let weight = move |it: bool| if it == here { 1.0 } else { 0.0 };
-                observations.drivers.iter().map(|it| weight(it.site == site)).collect::<Vec<f64>>()
-            };
-            let (elsewhere, here) = (is_here(false), is_here(true));
-            let estimates = design.refit(assumptions, &elsewhere, &self.fit.estimates, &self.fit.covariance);
-            let mut intercept = assumptions.clone();
-            intercept.prior.means = estimates;
-            intercept.is_fixed =
-                (0..intercept.is_fixed.len()).map(|it| it != self.fit.layout.intercept()).collect();
-            let estimates = real.fit_roughly(&intercept, &here, None).estimates;
-            real.log_likelihoods(&estimates, assumptions.has_spread, &here)
-        };
-        let by_site: Vec<Vec<f64>> = (0..observations.sites).into_par_iter().map(of).collect();
+        let of_site = |split: &Supposed| Task::of(split, of, designs(split)).elsewhere(split, &fit);
+        let by_site: Vec<Vec<f64>> = splits.by_site.par_iter().map(of_site).collect();
         // A driver counts at its own site, and is 0 elsewhere.
         let sum = |driver: usize| by_site.iter().map(|it| it[driver]).sum();
-        let held_out_by_site = (0..observations.drivers.len()).map(sum).collect();
-        Candidate { held_out_by_site, ..self }
+        let drivers = if by_site.is_empty() { 0 } else { observations.drivers.len() };
+        Candidate { name, fit, held_out, held_out_by_site: (0..drivers).map(sum).collect(), predictions }
     }
 
     /// By how much this model predicts drivers who were held out better than `other`: nats per change, with the
@@ -178,6 +134,52 @@ impl Candidate {
     ) -> Option<Difference> {
         let [own, other] = [self, other].map(|it| &it.held_out_by_site);
         (!own.is_empty()).then(|| Difference::between(own, other, observations, folds))
+    }
+}
+
+/// The same design with its rows in a random order.
+fn with_shuffled_rows(design: &Design, seed: u64) -> Design {
+    let order = shuffled(design.gaps.len(), seed, u32::MAX >> 1);
+    let width = design.nodes * design.terms;
+    Design {
+        values: order
+            .iter()
+            .flat_map(|row| &design.values[row * width..(row + 1) * width])
+            .copied()
+            .collect(),
+        gaps: order.iter().map(|row| design.gaps[*row]).collect(),
+        places: order.iter().map(|row| design.places[*row]).collect(),
+        ..design.clone()
+    }
+}
+
+/// A fit to some drivers, and a prediction of others.
+struct Task {
+    /// What is fitted.
+    design: Design,
+    /// What is predicted.
+    real: Design,
+    assumptions: Assumptions,
+}
+
+impl Task {
+    fn of(supposed: &Supposed, (model, means): (&DesireModel, &[f64]), [design, real]: [Design; 2]) -> Task {
+        let effect = supposed.effect_of(model, &real, means);
+        let assumptions = assumptions(&real, means, effect, &supposed.spread);
+        Task { assumptions: assumptions.without_spread(&real), design, real }
+    }
+
+    /// The log-likelihoods of the drivers of a site that is held out. What a model knows of other sites is how drivers
+    /// weigh things, not how often they change lanes here: the intercept is estimated again, at the site itself, for
+    /// every model alike. Of its places nothing is known.
+    fn elsewhere(&self, split: &Supposed, fit: &WaitingFit) -> Vec<f64> {
+        let Task { design, real, assumptions } = self;
+        let here = split.held_out();
+        let mut intercept = assumptions.clone();
+        intercept.prior.means = design.refit(assumptions, &split.seen, &fit.estimates, &fit.covariance);
+        intercept.is_fixed = (0..intercept.is_fixed.len()).map(|it| it != fit.layout.intercept()).collect();
+        let estimates = real.fit_roughly(&intercept, &here, None).estimates;
+        real.log_likelihoods(&estimates, assumptions.has_spread, &here)
     }
 }
 

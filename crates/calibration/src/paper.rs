@@ -96,7 +96,7 @@ fn fit(used: &[(&SideSeen, bool)], beta: f64) -> Option<Fit> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observe::{ByDesired, DesiredSpeed, ObservedSpell, Place};
+    use crate::observe::{ByDesired, DesiredSpeed, GapDemands, ObservedSpell, Place};
     use laneweave_network::Side;
 
     fn driver(vehicle: i64, courtesy: f32, change: bool) -> ObservedDriver {
@@ -109,13 +109,14 @@ mod tests {
             lag: [20.0, 0.0],
             speed: 20.0,
             has_safe_gap: true,
+            demands: GapDemands { time_to_collision: 9.0, deceleration: 0.0, is_secure: true },
             by_desired: [ByDesired { speed: 0.01 * (vehicle % 5) as f32, ..ByDesired::default() }; NODES],
         };
         let sightings = vec![Sighting { tick: 0, sides: [Some(side), None] }];
         ObservedDriver {
             vehicle,
             desired: DesiredSpeed { nodes: vec![(1.0, 1.0)], is_shown: true },
-            spells: vec![ObservedSpell { sightings, change: change.then_some(Side::Left) }],
+            spells: vec![ObservedSpell { sightings, until: 0.0, change: change.then_some(Side::Left) }],
             ..ObservedDriver::default()
         }
     }

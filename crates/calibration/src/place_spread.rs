@@ -28,13 +28,17 @@ impl PlaceSpread {
     /// Estimates them with a model of places alone: σ² = mean of û² and its variance, again and again (EM).
     pub fn of_places(observations: &Observations) -> PlaceSpread {
         let design = observations.design(&DesireModel::Places);
-        let weights = vec![1.0; design.drivers.len()];
-        let is_lane = is_lane(&design);
+        PlaceSpread::of_design(&design, &vec![1.0; design.drivers.len()])
+    }
+
+    /// The same by the drivers of a design of places, who count as often as `weights` says.
+    pub(crate) fn of_design(design: &Design, weights: &[f64]) -> PlaceSpread {
+        let is_lane = is_lane(design);
         let mut spread = USUAL;
         let mut before: Option<WaitingFit> = None;
         for _ in 0..STEPS {
-            let assumptions = assumptions(&design, &[], 1.0, &spread).without_spread(&design);
-            let fit = design.fit_roughly(&assumptions, &weights, before.as_ref());
+            let assumptions = assumptions(design, &[], 1.0, &spread).without_spread(design);
+            let fit = design.fit_roughly(&assumptions, weights, before.as_ref());
             let square = |at: usize| fit.estimates[at] * fit.estimates[at] + fit.covariance[(at, at)];
             let of = |lane: bool, usual: f64| {
                 let places = fit.layout.places().zip(&is_lane).filter(|(_, it)| **it == lane);
@@ -62,20 +66,20 @@ impl PlaceSpread {
 
 /// How much the terms of `design` do: the standard deviation, over the terms, of the logarithm of the odds that one
 /// standard deviation of a yield brings more or less than the prior `means` have it. It is estimated in the same way,
-/// so that weights of which the data know little are drawn towards the prior.
-pub fn effect(design: &Design, means: &[f64], spread: &PlaceSpread) -> f64 {
+/// so that weights of which the data know little are drawn towards the prior. Drivers count as often as `weights` says.
+pub fn effect(design: &Design, means: &[f64], spread: &PlaceSpread, weights: &[f64]) -> f64 {
     /// Where the search begins, and as how many terms that counts (ours).
     const USUAL: f64 = 1.0;
     const USUAL_WEIGHT: f64 = 0.25;
     if design.terms == 0 {
         return USUAL;
     }
-    let (scales, weights) = (design.scales(), vec![1.0; design.drivers.len()]);
+    let scales = design.scales();
     let mut effect = USUAL;
     let mut before: Option<WaitingFit> = None;
     for _ in 0..STEPS {
         let assumptions = assumptions(design, means, effect, spread).without_spread(design);
-        let fit = design.fit_roughly(&assumptions, &weights, before.as_ref());
+        let fit = design.fit_roughly(&assumptions, weights, before.as_ref());
         let (mut sum, mut count) = (USUAL_WEIGHT * USUAL * USUAL, USUAL_WEIGHT);
         for ((at, mean), scale) in fit.layout.slopes().zip(means).zip(&scales) {
             let off = fit.estimates[at] - mean;

@@ -1,13 +1,14 @@
 //! A whole fit: the weights with their errors, what the data leave open, and how well models predict.
 
+use crate::beta::BetaProfile;
 use crate::classes::{Mixture, are_two};
 use crate::desire_model::{DesireModel, assumptions};
-use crate::held_out::{Candidate, Difference, Folds, interval};
-use crate::matrix::Matrix;
+use crate::fitted::{Fitted, is_closed};
+use crate::held_out::{Candidate, Difference, Folds};
 use crate::observe::{Observations, PLAIN};
-use crate::place_spread::{PlaceSpread, effect};
-use crate::prior::Prior;
+use crate::place_spread::PlaceSpread;
 use crate::resample::resampled;
+use crate::split::{Splits, Supposed, spreads};
 use crate::waiting::{Assumptions, Design, Layout, NO_STRATUM, WaitingFit};
 
 /// What is known of the weights before a recording is seen, in units of the choice noise σ.
@@ -42,36 +43,6 @@ pub struct Asked {
     pub classes: Classes,
 }
 
-/// A fitted number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Fitted {
-    /// Its name.
-    pub name: &'static str,
-    /// The estimate.
-    pub estimate: f64,
-    /// Its standard error by the information matrix.
-    pub standard_error: f64,
-    /// Its 95 % interval: by the bootstrap, or by the standard error if there are no draws.
-    pub interval: [f64; 2],
-    /// What was assumed before.
-    pub prior: f64,
-    /// Whether the recording tells it.
-    pub is_identified: bool,
-}
-
-/// β of comfort by its profile likelihood.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BetaProfile {
-    /// The values that were tried, and the log-likelihood at each, less the largest.
-    pub profile: Vec<(f64, f64)>,
-    /// The one that is used.
-    pub beta: f64,
-    /// The values whose likelihood is not significantly less.
-    pub interval: [f64; 2],
-    /// Whether the interval ends on both sides within the values that were tried.
-    pub is_identified: bool,
-}
-
 /// A model beside multi-criteria decision-making.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
@@ -88,7 +59,8 @@ pub struct Compared {
 /// A fit of a style to observations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Those of the terms of multi-criteria decision-making; speed with the route in the proportion of the prior.
+    /// Those of the terms of multi-criteria decision-making; speed with the route in the proportion of the prior. Those
+    /// that are not identified have the estimates of a fit in which all weights are free.
     pub weights: Vec<Fitted>,
     /// θ, in units of the choice noise.
     pub theta: Fitted,
@@ -101,7 +73,7 @@ pub struct Study {
     /// The logarithm of the mean odds of all places, over those of a place of the mean intercept: a driver who knows no
     /// places has a threshold that is less by this.
     pub mean_place: f64,
-    /// The fit of the whole process.
+    /// The fit of the whole process, with weights that are not identified held at the prior.
     pub fit: WaitingFit,
     /// All parameters of each draw of the bootstrap.
     pub draws: Vec<Vec<f64>>,
@@ -122,10 +94,13 @@ pub enum Classes {
     Exactly(usize),
 }
 
-/// Values of β that are tried.
-const BETAS: [f64; 8] = [0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0];
-/// Half of the 95 % point of χ² with one degree of freedom.
-const SIGNIFICANT: f64 = 1.920_729;
+impl Assumptions {
+    /// The same with the weights that are not identified held at the prior.
+    pub(crate) fn holding_untold(self, layout: Layout, weights: &[Fitted]) -> Assumptions {
+        let untold = layout.slopes().zip(weights).filter(|it| !it.1.is_identified);
+        untold.fold(self, |assumptions, (at, weight)| assumptions.holding(at, weight.prior))
+    }
+}
 
 impl PriorWeights {
     /// Those of the terms of multi-criteria decision-making.
@@ -138,42 +113,41 @@ impl Study {
     /// Fits a style to `observations`, and compares its model with others.
     pub fn of(observations: &Observations, asked: &Asked) -> Study {
         let study = Study::alone(observations, asked);
-        let model = DesireModel::Mcdm { beta: study.beta.beta };
-        let compared = compared(observations, &model, &study.spread, asked);
+        let compared = compared(observations, &study, asked);
         Study { compared, ..study }
     }
 
-    /// Fits a style to `observations`, without a comparison of models.
+    /// Fits a style to `observations`, without a comparison of models. Weights that are not identified are held at the
+    /// prior, and all else is what explains the drivers best beside that.
     pub fn alone(observations: &Observations, asked: &Asked) -> Study {
-        let (spread, effect) = spreads(observations, &asked.prior);
-        let beta = BetaProfile::of(observations, &asked.prior, effect, &spread);
+        let Supposed { seen: all, spread, effect, beta } = Supposed::by_all(observations, &asked.prior);
         let model = DesireModel::Mcdm { beta: beta.beta };
         let design = observations.design(&model);
         let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread);
-        let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
         let resampled: Vec<Vec<f64>> =
             (0..asked.draws).map(|number| resampled(observations, asked.folds.seed, number)).collect();
-        let all = vec![1.0; design.drivers.len()];
-        let maximum = (&fit.estimates[..], Some(&fit.covariance));
-        let draws = design.redrawn(&assumptions, &all, maximum, &resampled);
-        let layout = fit.layout;
-        let weights = weights(&fit, &draws, &asked.prior, &assumptions.prior);
-        let prior_theta = -assumptions.prior.means[layout.intercept()];
-        let theta = Fitted::of_parameter("theta", (layout.intercept(), -1.0), &fit, &draws, prior_theta);
+        let redrawn = |assumptions: &Assumptions, fit: &WaitingFit| {
+            design.redrawn(assumptions, &all, (&fit.estimates, Some(&fit.covariance)), &resampled)
+        };
+        let free = design.fit(&assumptions, &all);
+        let draws = redrawn(&assumptions, &free);
+        let mut weights =
+            Drawn { design: &design, assumptions: &assumptions, fit: &free, draws: &draws }.weights();
+        let assumptions = assumptions.holding_untold(free.layout, &weights);
+        let fit = design.fit_from(&assumptions, &all, Some(&free));
+        let draws = redrawn(&assumptions, &fit);
+        let drawn = Drawn { design: &design, assumptions: &assumptions, fit: &fit, draws: &draws };
+        for (weight, at) in weights.iter_mut().zip(fit.layout.slopes()).filter(|it| it.0.is_identified) {
+            *weight = Fitted { is_identified: true, ..drawn.fitted(weight.name, (at, 1.0)) };
+        }
+        let theta = drawn.told("theta", (fit.layout.intercept(), -1.0));
         let mean_place = mean_place(&design, &fit);
         let mixture = mixture(&design, &assumptions, &fit, asked);
-        let redrawn = |it: &Mixture| it.redrawn(&design, &assumptions, &fit, &resampled);
-        let class_draws = mixture.as_ref().map_or(Vec::new(), redrawn);
+        let of_classes = |it: &Mixture| it.redrawn(&design, &assumptions, &fit, &resampled);
+        let class_draws = mixture.as_ref().map_or(Vec::new(), of_classes);
         let compared = Vec::new();
         Study { weights, theta, beta, spread, effect, mean_place, fit, draws, compared, mixture, class_draws }
     }
-}
-
-/// How much places differ, and how much the terms of multi-criteria decision-making do.
-fn spreads(observations: &Observations, prior: &PriorWeights) -> (PlaceSpread, f64) {
-    let spread = PlaceSpread::of_places(observations);
-    let design = observations.design(&DesireModel::Mcdm { beta: prior.beta });
-    (spread, effect(&design, &prior.terms(), &spread))
 }
 
 /// The logarithm of the mean odds of places, over all seconds and sides.
@@ -199,130 +173,60 @@ fn mixture(design: &Design, assumptions: &Assumptions, fit: &WaitingFit, asked: 
     }
 }
 
-/// The weights of a fit with the terms of multi-criteria decision-making.
-fn weights(fit: &WaitingFit, draws: &[Vec<f64>], values: &PriorWeights, prior: &Prior) -> Vec<Fitted> {
-    let names = DesireModel::Mcdm { beta: values.beta }.terms();
-    let each = names.into_iter().zip(values.terms()).zip(fit.layout.slopes());
-    let of = |((name, value), at): ((&'static str, f64), usize)| {
-        let mut fitted = Fitted::of_parameter(name, (at, 1.0), fit, draws, value);
-        fitted.is_identified &= !is_the_prior(fit, prior, at);
-        fitted
-    };
-    each.map(of).collect()
+/// A fit with its assumptions and the draws of its bootstrap.
+struct Drawn<'a> {
+    design: &'a Design,
+    assumptions: &'a Assumptions,
+    fit: &'a WaitingFit,
+    draws: &'a [Vec<f64>],
 }
 
-/// Whether the data add little to what was assumed of a parameter: its variance is hardly less than that of the prior.
-fn is_the_prior(fit: &WaitingFit, prior: &Prior, at: usize) -> bool {
-    /// Share of the prior's variance that is left.
-    const LEFT: f64 = 0.8;
-    fit.covariance[(at, at)] * prior.precisions[at] > LEFT
-}
-
-/// One parameter of all draws.
-fn column(draws: &[Vec<f64>], at: usize, sign: f64) -> Vec<f64> {
-    draws.iter().map(|it| sign * it[at]).collect()
-}
-
-impl Fitted {
-    /// A parameter of a fit, times a sign.
-    fn of_parameter(
-        name: &'static str,
-        (at, sign): (usize, f64),
-        fit: &WaitingFit,
-        draws: &[Vec<f64>],
-        prior: f64,
-    ) -> Fitted {
-        let draws = column(draws, at, sign);
-        Fitted::of(name, sign * fit.estimates[at], fit.standard_error(at), draws, prior)
+impl Drawn<'_> {
+    /// A parameter of the fit, times a sign.
+    fn fitted(&self, name: &'static str, (at, sign): (usize, f64)) -> Fitted {
+        let column = self.draws.iter().map(|it| sign * it[at]).collect();
+        let Assumptions { prior, .. } = self.assumptions;
+        let estimate = (sign * self.fit.estimates[at], self.fit.standard_error(at));
+        Fitted::of(name, estimate, column, (sign * prior.means[at], 1.0 / prior.precisions[at].sqrt()))
     }
 
-    /// A number with its standard error and its `draws`.
-    ///
-    /// The recording does not tell it if its variance is more than four times the square of what matters: the prior
-    /// value, or what its interval leaves between it and 0, if that is more.
-    fn of(name: &'static str, estimate: f64, standard_error: f64, draws: Vec<f64>, prior: f64) -> Fitted {
-        /// Half the width of a 95 % interval in standard errors.
-        const HALF: f64 = 1.959_964;
-        /// Most standard errors that a number may be uncertain by, in units of what matters.
-        const MOST: f64 = 2.0;
-        let half = HALF * standard_error;
-        let interval = match draws.len() {
-            0 => [estimate - half, estimate + half],
-            _ => interval(draws),
-        };
-        let matters = prior.abs().max(estimate.abs() - half);
-        let width = (interval[1] - interval[0]) / (2.0 * HALF);
-        let is_identified = standard_error.max(width) <= MOST * matters;
-        Fitted { name, estimate, standard_error, interval, prior, is_identified }
-    }
-}
-
-impl BetaProfile {
-    /// Profiles the likelihood of multi-criteria decision-making over β.
-    fn of(
-        observations: &Observations,
-        prior: &PriorWeights,
-        effect: f64,
-        spread: &PlaceSpread,
-    ) -> BetaProfile {
-        let mut start: Option<(Vec<f64>, Matrix)> = None;
-        let mut logs = Vec::with_capacity(BETAS.len());
-        for beta in BETAS {
-            let design = observations.design(&DesireModel::Mcdm { beta });
-            let assumptions = assumptions(&design, &prior.terms(), effect, spread).without_spread(&design);
-            let weights = vec![1.0; design.drivers.len()];
-            let estimates = match &start {
-                Some((estimates, covariance)) => design.refit(&assumptions, &weights, estimates, covariance),
-                None => {
-                    let fit = design.fit_roughly(&assumptions, &weights, None);
-                    start = Some((fit.estimates.clone(), fit.covariance));
-                    fit.estimates
-                }
-            };
-            let all: Vec<f64> = design.log_likelihoods(&estimates, assumptions.has_spread, &weights);
-            logs.push((beta, all.iter().sum::<f64>()));
-        }
-        BetaProfile::from_logs(logs, prior.beta)
+    /// The same with whether it is identified.
+    fn told(&self, name: &'static str, (at, sign): (usize, f64)) -> Fitted {
+        let number = self.fitted(name, (at, sign));
+        let is_identified = number.is_narrowed() && is_closed(self.design, self.assumptions, self.fit, at);
+        Fitted { is_identified, ..number }
     }
 
-    fn from_logs(logs: Vec<(f64, f64)>, prior: f64) -> BetaProfile {
-        let largest = logs.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
-        let profile: Vec<(f64, f64)> = logs.into_iter().map(|(beta, log)| (beta, log - largest)).collect();
-        let inside = |it: &&(f64, f64)| it.1 > -SIGNIFICANT;
-        let lower = profile.iter().find(inside).map_or(f64::NAN, |it| it.0);
-        let upper = profile.iter().rev().find(inside).map_or(f64::NAN, |it| it.0);
-        let is_identified = lower > BETAS[0] && upper < BETAS[BETAS.len() - 1];
-        let best = profile.iter().find(|it| it.1 == 0.0).map_or(prior, |it| it.0);
-        let beta = if is_identified { best } else { prior };
-        BetaProfile { profile, beta, interval: [lower, upper], is_identified }
+    /// The weights of the terms of multi-criteria decision-making, with whether they are identified.
+    fn weights(&self) -> Vec<Fitted> {
+        // β changes no name.
+        let names = DesireModel::Mcdm { beta: 0.0 }.terms();
+        names.into_iter().zip(self.fit.layout.slopes()).map(|(name, at)| self.told(name, (at, 1.0))).collect()
     }
 }
 
 /// The models beside multi-criteria decision-making, and the controls.
-fn compared(
-    observations: &Observations,
-    model: &DesireModel,
-    spread: &PlaceSpread,
-    asked: &Asked,
-) -> Vec<Compared> {
+fn compared(observations: &Observations, study: &Study, asked: &Asked) -> Vec<Compared> {
     let folds = &asked.folds;
+    let splits = Splits::of(observations, &asked.prior, Supposed::of(study, observations), folds);
+    let mcdm = DesireModel::Mcdm { beta: study.beta.beta };
     let of = |model: &DesireModel| {
         let means = match model {
             DesireModel::Mcdm { .. } => asked.prior.terms(),
             _ => vec![0.0; model.terms().len()],
         };
-        Candidate::of(observations, model, (&means, spread), folds)
+        Candidate::of(observations, model, &means, &splits)
     };
     let others = [
         DesireModel::Constant,
         DesireModel::Places,
-        *model,
+        mcdm,
         DesireModel::Mobil,
         DesireModel::Lmrs,
         DesireModel::Raw,
     ];
     let mut candidates: Vec<Candidate> = others.iter().map(of).collect();
-    candidates.push(Candidate::shuffled(observations, model, (&asked.prior.terms(), spread), folds));
+    candidates.push(Candidate::shuffled(observations, &mcdm, &asked.prior.terms(), (&splits, folds.seed)));
     let (constant, mcdm) = (candidates[0].clone(), candidates[2].clone());
     let compare = |candidate: Candidate| Compared {
         over_constant: candidate.better_than(&constant, observations, folds),
@@ -339,11 +243,12 @@ fn compared(
 impl Study {
     /// The weights alone, with β of the prior and errors by the information matrix.
     pub fn weights_of(observations: &Observations, asked: &Asked) -> Vec<Fitted> {
-        let (spread, effect) = spreads(observations, &asked.prior);
+        let all = vec![1.0; observations.drivers.len()];
+        let (spread, effect) = spreads(observations, &asked.prior, &all);
         let design = observations.design(&DesireModel::Mcdm { beta: asked.prior.beta });
         let assumptions = assumptions(&design, &asked.prior.terms(), effect, &spread).without_spread(&design);
         let fit = design.fit(&assumptions, &vec![1.0; design.drivers.len()]);
-        weights(&fit, &[], &asked.prior, &assumptions.prior)
+        Drawn { design: &design, assumptions: &assumptions, fit: &fit, draws: &[] }.weights()
     }
 
     /// Where the parameters of the fit stand.

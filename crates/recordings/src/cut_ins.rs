@@ -57,6 +57,28 @@ impl CutIn {
     }
 }
 
+/// After a cut-in its follower is watched for this time [s], and its braking is the mean over this one [s] (ours).
+const WATCHED: f64 = 4.0;
+const OVER: f64 = 1.0;
+
+impl CutIn {
+    /// The hardest braking of the follower within 4 s after the cut-in, over 1 s [m/s²]; 0 if it does not brake. `None`
+    /// if the follower is not seen for so long.
+    pub fn braking(&self, matched: &Matched<'_>) -> Option<f64> {
+        let step = matched.recording.step;
+        let track = matched.recording.tracks.iter().find(|it| it.id == self.follower)?;
+        let frame = |time: f64| ((self.time + time) / step).round() as i64;
+        let speed =
+            |frame: i64| track.at(frame).map(|at| smooth::speed(&track.states, at, 0.5 * REACH, step));
+        let over = (OVER / step).round().max(1.0) as i64;
+        let mut hardest = 0.0_f64;
+        for begin in frame(0.0)..=frame(WATCHED) - over {
+            hardest = hardest.max((speed(begin)? - speed(begin + over)?) / (over as f64 * step));
+        }
+        Some(hardest)
+    }
+}
+
 /// The cut-ins among the lane `changes` of a recording, in their order. Vehicles whose recorded bodies overlap have no
 /// gap, and are left out.
 pub fn cut_ins(matched: &Matched<'_>, changes: &[LaneChange]) -> Vec<CutIn> {

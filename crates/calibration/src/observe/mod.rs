@@ -22,7 +22,7 @@ pub(crate) use desired::{FREE, Shown, Speeds, USUAL_LOGS, distribution, moments}
 pub(crate) use in_view::InView;
 pub use known::{FreeTime, Known};
 pub use place::Place;
-pub use side::{ByDesired, PLAIN, SideSeen, gap_terms};
+pub use side::{ByDesired, GapDemands, PLAIN, SideSeen, gap_terms};
 use spells::{End, SpellTimes};
 
 /// How a recording is observed.
@@ -111,6 +111,8 @@ pub struct ObservedDriver {
 pub struct ObservedSpell {
     /// What it saw, in the order of time.
     pub sightings: Vec<Sighting>,
+    /// When it ends [s].
+    pub until: f64,
     /// The side of the change that begins at its end, or of the desire, where the begins of desires are known.
     pub change: Option<Side>,
 }
@@ -370,7 +372,7 @@ impl Watch<'_> {
             });
         }
         if let Some(driver) = drivers.last_mut() {
-            driver.spells.push(ObservedSpell { sightings, change });
+            driver.spells.push(ObservedSpell { sightings, until: times.until, change });
         }
     }
 }

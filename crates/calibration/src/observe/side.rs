@@ -2,6 +2,7 @@
 
 use laneweave_models::change::{
     Driver, INCENTIVES, Incentive, IncentiveName, Lmrs, Mcdm, Mobil, Safety, Situation, Traffic,
+    deceleration_to_avoid, time_to_collision,
 };
 
 use laneweave_models::Style;
@@ -31,8 +32,21 @@ pub struct SideSeen {
     pub speed: f32,
     /// Whether the gap test of the style accepts the gaps to both.
     pub has_safe_gap: bool,
+    /// What a change into these gaps would ask of their followers.
+    pub demands: GapDemands,
     /// What depends on the desired speed, for each of the driver's possible ones.
     pub by_desired: [ByDesired; NODES],
+}
+
+/// What a change into a gap would ask of those who follow there: the driver itself, and the new follower.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapDemands {
+    /// The shorter time to collision [s]; infinite where no gap closes.
+    pub time_to_collision: f32,
+    /// The harder braking [m/s²], by kinematics or by their models; negative where both may accelerate.
+    pub deceleration: f32,
+    /// Whether both could stop behind leaders who brake as hard as they can.
+    pub is_secure: bool,
 }
 
 /// What depends on the desired speed of a driver.
@@ -88,16 +102,17 @@ impl SideSeen {
             lag,
             speed: me.pace.speed as f32,
             has_safe_gap: has_safe_gap(situation, style),
+            demands: GapDemands::of(situation, style),
             by_desired: [ByDesired::default(); NODES],
         }
     }
 }
 
-/// Whether the gap test of `style` accepts the gaps to the new leader and to the new follower, for a change without
-/// urgency.
-fn has_safe_gap(situation: &Situation, style: &Style) -> bool {
-    /// Step of the simulation [s].
-    const STEP: f64 = 0.1;
+/// Step of the simulation [s].
+const STEP: f64 = 0.1;
+
+/// The driver behind the new leader, and the new follower behind the driver, for a change without urgency.
+fn pairings<'a>(situation: &Situation<'a>, style: &Style) -> [Option<Pairing<'a>>; 2] {
     /// Desire that counts for the accepted time gap, as in the simulation.
     const DESIRE: f64 = 0.3;
     let Situation { me, there, .. } = situation;
@@ -107,8 +122,49 @@ fn has_safe_gap(situation: &Situation, style: &Style) -> bool {
         let leader = Ahead { gap: it.gap, speed: me.pace.speed, acceleration: me.acceleration };
         Pairing { follower: it.driver, leader }
     });
+    [ahead, behind]
+}
+
+/// Whether the gap test of `style` accepts the gaps to the new leader and to the new follower, for a change without
+/// urgency.
+fn has_safe_gap(situation: &Situation, style: &Style) -> bool {
+    let [ahead, behind] = pairings(situation, style);
     let suits = |it: Option<Pairing>, safety: &Safety| it.is_none_or(|it| it.accepted(safety, STEP).is_ok());
     suits(ahead, &style.safety) && suits(behind, &style.safety.of_follower())
+}
+
+impl GapDemands {
+    /// Of a driver of `style`.
+    fn of(situation: &Situation, style: &Style) -> GapDemands {
+        const NOTHING: Safety = Safety {
+            min_gap: 0.0,
+            min_lag_gap: 0.0,
+            closing_growth: 0.0,
+            min_time_to_collision: 0.0,
+            max_deceleration: f64::INFINITY,
+        };
+        /// Vehicles that touch have this gap [m].
+        const SHORTEST: f64 = 0.1;
+        let mut demands =
+            GapDemands { time_to_collision: f32::INFINITY, deceleration: f32::NEG_INFINITY, is_secure: true };
+        for pair in pairings(situation, style).into_iter().flatten() {
+            let (gap, leader) = (pair.leader.gap.max(SHORTEST), pair.leader.speed);
+            let (follower, demanded) = (pair.follower.pace.speed, -pair.follower.demanded(pair.leader));
+            let deceleration = deceleration_to_avoid(gap, follower, leader).max(demanded);
+            let time = time_to_collision(gap, follower, leader) as f32;
+            demands.time_to_collision = demands.time_to_collision.min(time);
+            demands.deceleration = demands.deceleration.max(deceleration as f32);
+            demands.is_secure &= pair.accepted(&NOTHING, STEP).is_ok();
+        }
+        demands
+    }
+
+    /// Whether a gap test with the limits of `safety` accepts this, whatever the critical gaps are.
+    pub fn suit(&self, safety: &Safety) -> bool {
+        f64::from(self.time_to_collision) >= safety.min_time_to_collision
+            && f64::from(self.deceleration) <= safety.max_deceleration
+            && self.is_secure
+    }
 }
 
 impl ByDesired {

@@ -33,6 +33,13 @@ impl Assumptions {
         self.is_fixed[Layout::of(design).spread()] = true;
         Assumptions { has_spread: false, ..self }
     }
+
+    /// The same with parameter `at` held at `value`.
+    pub fn holding(mut self, at: usize, value: f64) -> Assumptions {
+        self.prior.means[at] = value;
+        self.is_fixed[at] = true;
+        self
+    }
 }
 
 /// A fit of the hidden process.
@@ -160,6 +167,21 @@ impl Memories {
 }
 
 impl Design {
+    /// For each row the chance per second of a desire for its side, in the mean over the possible desired speeds of the
+    /// driver, given no desire yet.
+    pub fn desires(&self, estimates: &[f64]) -> Vec<f64> {
+        let layout = Layout::of(self);
+        let numbers = Numbers::new(layout, estimates, false);
+        let of = |memory: &mut Memories, driver: &super::design::Driver| {
+            let look = Look { design: self, driver, numbers: &numbers };
+            match self.nodes {
+                1 => look.desires(&mut memory.one),
+                _ => look.desires(&mut memory.several),
+            }
+        };
+        self.drivers.par_iter().map_init(Memories::default, of).flatten_iter().collect()
+    }
+
     /// For each second of each driver that counts the predicted chance that a change begins, and whether one did.
     pub fn predictions(&self, estimates: &[f64], weights: &[f64]) -> Vec<Prediction> {
         let numbers = Numbers::new(Layout::of(self), estimates, false);

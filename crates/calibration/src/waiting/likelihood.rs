@@ -10,7 +10,6 @@ use super::design::{Design, Driver, GAP_TERMS, NO_STRATUM, Spell};
 use super::parameters::{Layout, logistic};
 use super::quadrature::NORMAL;
 use super::second::{Lanes, Second, Slopes, States};
-use crate::measures::Prediction;
 
 /// A combination of unknowns that is less likely than this is not worth a gradient.
 const UNLIKELY: f64 = 1e-9;
@@ -93,12 +92,19 @@ pub(super) struct Look<'a> {
 }
 
 /// A phase of the decisions and an intercept of the driver's own.
-struct Combination<'a> {
+pub(super) struct Combination<'a> {
     spells: &'a [Spell],
     /// e^(s z), and s z.
     factor: f64,
     own: f64,
     chance: f64,
+}
+
+impl<'a> Combination<'a> {
+    /// That of drivers who have no intercepts of their own.
+    pub(super) fn usual(spells: &'a [Spell]) -> Combination<'a> {
+        Combination { spells, factor: 1.0, own: 0.0, chance: 1.0 }
+    }
 }
 
 impl Look<'_> {
@@ -133,40 +139,6 @@ impl Look<'_> {
         log_likelihood
     }
 
-    /// For each second of the first phase the chance that a change begins in it, given all that was seen before, and
-    /// whether one did. Drivers have no intercepts of their own here.
-    pub(super) fn predict<const W: usize>(&self, memory: &mut Memory<W>) -> Vec<Prediction> {
-        self.prepare(memory);
-        let mut known: Lanes<W> = [0.0; W];
-        known.iter_mut().zip(&self.driver.chances).for_each(|(it, chance)| *it = *chance);
-        let mut predictions = Vec::new();
-        let Some(spells) = self.driver.phases.first() else { return predictions };
-        let combination = Combination { spells, factor: 1.0, own: 0.0, chance: 1.0 };
-        for spell in spells {
-            let begin = self.begin(spell)[0];
-            let mut now: States<W> = begin.map(|it| known.map(|known| it * known));
-            let last = spell.seconds.len().saturating_sub(1);
-            for (number, sides) in spell.seconds.iter().enumerate() {
-                let second = self.second(memory, *sides, &combination);
-                let before: f64 = now.iter().flatten().sum();
-                let by_side = [0, 1].map(|side| second.changes(&now, side).iter().sum::<f64>());
-                let came = spell.changed_to.filter(|_| number == last);
-                let probability = ((by_side[0] + by_side[1]) / before).clamp(0.0, 1.0);
-                predictions.push(Prediction { probability, came: came.is_some() });
-                match came {
-                    Some(side) => known = second.changes(&now, side),
-                    None => {
-                        now = second.after(&now);
-                        known = std::array::from_fn(|lane| now[0][lane] + now[1][lane] + now[2][lane]);
-                    }
-                }
-            }
-            let sum = known.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-            known = known.map(|it| it / sum);
-        }
-        predictions
-    }
-
     /// All combinations of phases and own intercepts.
     fn combinations(&self) -> impl Iterator<Item = Combination<'_>> {
         let phases = &self.driver.phases;
@@ -182,7 +154,7 @@ impl Look<'_> {
     }
 
     /// Computes e^η and a of all rows of the driver.
-    fn prepare<const W: usize>(&self, memory: &mut Memory<W>) {
+    pub(super) fn prepare<const W: usize>(&self, memory: &mut Memory<W>) {
         let Look { design, driver, numbers } = self;
         let (layout, all) = (numbers.layout, numbers.all);
         let (intercept, slopes) = (all[layout.intercept()], &all[layout.slopes()]);
@@ -209,7 +181,7 @@ impl Look<'_> {
     }
 
     #[inline(always)]
-    fn second<const W: usize>(
+    pub(super) fn second<const W: usize>(
         &self,
         memory: &Memory<W>,
         sides: [Option<u32>; 2],
@@ -228,7 +200,7 @@ impl Look<'_> {
     }
 
     /// The states at the begin of a spell, and their derivatives by the chance of waiting.
-    fn begin(&self, spell: &Spell) -> [[f64; 3]; 2] {
+    pub(super) fn begin(&self, spell: &Spell) -> [[f64; 3]; 2] {
         let sides =
             spell.seconds.first().map_or([0.0; 2], |it| it.map(|it| f64::from(u8::from(it.is_some()))));
         let count = sides[0] + sides[1];

@@ -53,7 +53,7 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     draws: u32,
     /// How often a third of the drivers is held out in turn.
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=100))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=100))]
     repetitions: u32,
     /// Seconds before its centre crosses the line at which a vehicle begins a change [default: where its path shows it,
     /// or 1.5 if many changes had begun before their vehicles were first seen].

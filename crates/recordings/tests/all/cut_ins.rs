@@ -81,3 +81,27 @@ fn without_a_follower_within_four_seconds_a_change_is_no_cut_in() {
     assert_eq!(found(vec![on_the_left(2, 1000.0, 0.5)]), []);
     assert_eq!(found(vec![on_the_left(2, 1006.0, 20.0)]), []);
 }
+
+#[test]
+fn the_braking_of_a_follower_is_the_hardest_over_a_second_within_four() {
+    // From one second after the cut-in on the follower brakes with 3 m/s² for 2 s, from 5 s on it would brake harder.
+    let mut follower = on_the_left(2, 970.0, 25.0);
+    for state in &mut follower.states {
+        let time = state.frame as f64 * STEP;
+        state.speed -= 3.0 * (time - 11.0).clamp(0.0, 2.0) + 6.0 * (time - 15.0).clamp(0.0, 2.0);
+    }
+    let network = two_lanes();
+    let whole = Recording { step: STEP, tracks: vec![cutting_in(), follower] };
+    let braking = |recording: &Recording| {
+        let matched = Matched::new(&network, recording);
+        let [it] = cut_ins(&matched, &lane_changes(&matched))[..] else { panic!("one cut-in") };
+        it.braking(&matched)
+    };
+    assert_near(braking(&whole).expect("it is seen"), 3.0, 1e-6);
+    let mut short = whole.clone();
+    short.tracks[1].states.truncate(130);
+    assert_eq!(braking(&short), None);
+    let mut steady = whole;
+    steady.tracks[1] = on_the_left(2, 970.0, 25.0);
+    assert_eq!(braking(&steady), Some(0.0));
+}

@@ -75,3 +75,14 @@ impl Accepted {
         })
     }
 }
+
+/// `style` with the limits of a gap test that accepts nearly all recorded gaps, if there are any. Its critical gaps
+/// stay.
+pub(super) fn with_limits(style: &Style, limits: Option<&GapLimits>) -> Style {
+    let mut style = style.clone();
+    if let Some(limits) = limits {
+        style.safety.min_time_to_collision = limits.min_time_to_collision_s;
+        style.safety.max_deceleration = limits.max_deceleration_mps2;
+    }
+    style
+}

@@ -1,12 +1,15 @@
 //! From a study to the report of its fit.
 
+use laneweave_calibration::gaps::{GapFit, Wishes};
 use laneweave_calibration::observe::Observations;
 use laneweave_calibration::{DesireModel, Fitted, PaperGroup, Study};
 use laneweave_scenario::Fault;
 
 use super::Observed;
-use super::accepted::Accepted;
+use super::accepted::{Accepted, with_limits};
 use super::following::FollowingReport;
+use super::gaps::GapReport;
+use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
 use super::report::{BetaReport, ByPaper, FitReport, Spread, WeightReport, WithLead};
 use super::style::styles;
@@ -18,6 +21,11 @@ impl FitReport {
         let logistic = laneweave_calibration::waiting::logistic;
         let parameter = |at: usize| study.fit.estimates[at];
         let accepted = Accepted::of(observations);
+        let gap_limits = accepted.limits(&observed.prior.typical);
+        let style = with_limits(&observed.prior.typical, gap_limits.as_ref());
+        let asked = observed.asked();
+        let wishes = Wishes::of_study(observations, study, &asked);
+        let gap_fit = GapFit::of(&wishes, &style, &asked.folds);
         let gaps = |all: &[[f64; 3]]| Spread::of(all.iter().map(|it| it[0]).collect());
         let durations = observations.changes.iter().filter_map(|it| it.duration).collect();
         let factors = observations.drivers.iter().filter(|it| it.desired.is_shown);
@@ -25,6 +33,7 @@ impl FitReport {
             data: observed.plan(),
             leads_s: observations.recordings.iter().map(|it| it.lead).collect(),
             following: FollowingReport::of(&observed.following),
+            gaps: GapReport::of(&gap_fit, &observed.sources.braking_behind()),
             weights: weights(observed, study),
             theta: weight(&study.theta),
             correction: None,
@@ -42,7 +51,7 @@ impl FitReport {
             durations_s: Spread::of(durations),
             lead_gaps_m: gaps(&accepted.lead),
             lag_gaps_m: gaps(&accepted.lag),
-            gap_limits: accepted.limits(&observed.prior.typical),
+            gap_limits,
             cooldown_s: observations.recordings.iter().map(|it| it.cooldown).fold(f64::INFINITY, f64::min),
             desired_speed_factors: Spread::of(factors.map(|it| it.desired.mean()).collect()),
             desired_speed_logs: desired_logs(observations),
@@ -53,7 +62,7 @@ impl FitReport {
             judged: None,
             styles: Vec::new(),
         };
-        report.data.not_identified = not_identified(study);
+        report.data.not_identified = not_identified(study, &report.data);
         (report.classes, report.styles) = styles(observed, study, &report)?;
         Ok(report)
     }
@@ -80,11 +89,14 @@ fn weight(it: &Fitted) -> WeightReport {
         standard_error: it.standard_error,
         interval: it.interval,
         prior: it.prior,
+        prior_deviation: it.prior_deviation,
         is_identified: it.is_identified,
+        matters: it.matters(),
+        value: it.value(),
     }
 }
 
-/// The weights; that of the route has the prior's proportion to that of speed.
+/// The weights; that of the route has the prior's proportion to that of speed, and is not told from it.
 pub(super) fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
     let mut weights: Vec<WeightReport> = study.weights.iter().map(weight).collect();
     let prior = observed.weights();
@@ -98,15 +110,23 @@ pub(super) fn weights(observed: &Observed, study: &Study) -> Vec<WeightReport> {
             standard_error: ratio * speed.standard_error,
             interval: speed.interval.map(|it| ratio * it),
             prior: prior.route,
+            prior_deviation: ratio * speed.prior_deviation,
             is_identified: false,
+            matters: false,
+            value: ratio * speed.value,
         },
     );
     weights
 }
 
-/// The names of what the recordings do not tell.
-fn not_identified(study: &Study) -> Vec<&'static str> {
-    let weights = study.weights.iter().filter(|it| !it.is_identified && it.name != "keeping");
+/// The names of what the recordings do not tell. A wish for the slow side that nobody has, since the law does not want
+/// it, is not among them.
+fn not_identified(study: &Study, plan: &Plan) -> Vec<&'static str> {
+    let never_differs =
+        |name: &str| plan.expected.iter().any(|it| it.name == name && it.standard_error.is_none());
+    let is_hidden = |it: &Fitted| it.name == "keeping" && never_differs(it.name);
+    let is_open = |it: &&Fitted| !it.is_identified && !is_hidden(it);
+    let weights = study.weights.iter().chain([&study.theta]).filter(is_open);
     let beta = (!study.beta.is_identified).then_some("beta");
     let classes = study.mixture.is_none().then_some("classes");
     let always = ["route", "alpha"].into_iter();

@@ -7,6 +7,9 @@ mod accepted;
 mod correct;
 mod following;
 mod found;
+mod gaps;
+#[cfg(feature = "reports")]
+mod gaps_page;
 mod judge;
 #[cfg(feature = "reports")]
 mod page;
@@ -32,6 +35,7 @@ use following::with_following;
 use sources::Sources;
 
 pub use following::{FollowingNumber, FollowingPrediction, FollowingReport, Off};
+pub use gaps::{BrakingReport, CriticalGapReport, GapReport, GapScoreReport};
 pub use judge::{Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
 #[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};
@@ -91,7 +95,7 @@ impl Request {
             classes: Classes::Auto,
             by_paper: false,
             draws: 200,
-            repetitions: 10,
+            repetitions: 4,
             lead: None,
             position_error: None,
             seed: 1,

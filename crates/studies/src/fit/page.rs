@@ -5,10 +5,11 @@ use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 
 use super::following::Off;
 use super::found::by_paper_terms;
+use super::gaps_page;
 use super::judge;
 use super::prediction::HeldOut;
 use super::report::{FitReport, Spread};
-use super::words::{correction, with_interval};
+use super::words::{correction, told, with_interval};
 
 /// The report of a fit to the recordings with these names, made by `command`.
 pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
@@ -37,8 +38,9 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
         .section(Section::new("what", "What was fitted").facts(facts).table(events(report)))
         .section(of_weights.text(
             "Intervals are those of a bootstrap over blocks of drivers who were seen at the same time, or of the information matrix if \
-             there are no draws. A weight is not identified if its standard error is more than twice what matters: its prior value, or \
-             what its interval leaves between it and zero; nor if more than .8 of its prior's variance is left. Between lanes that lead to the same place the yield of the route is one with \
+             there are no draws. A weight is identified if its standard deviation is at most half of the prior's, and the likelihood falls \
+             significantly, by 1.92 nats, on both sides. It matters if its interval excludes 0. A weight that is not identified drives at \
+             the prior, and the others are fitted beside that. Between lanes that lead to the same place the yield of the route is one with \
              that of speed, so its weight has the prior's proportion to that of speed.",
         ))
         .section(Section::new("lead", "When changes begin").table(by_lead(report)).text(
@@ -49,7 +51,10 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
             "β by its profile likelihood: at each value everything else is fitted anew. It is identified if the likelihood falls \
              significantly, by 1.92 nats, on both sides.",
         ));
-    let page = page.section(following(report)).section(held_out_section(report));
+    let page = page
+        .section(following(report))
+        .section(gaps_page::section(&report.gaps))
+        .section(held_out_section(report));
     let page = if report.by_paper.is_empty() { page } else { page.section(paper(report)) };
     let page = match &report.judged {
         Some(judged) => page.section(judge::section(judged)),
@@ -91,7 +96,8 @@ fn weights(report: &FitReport) -> Table {
         ("standard error", Align::Numbers),
         ("95 % interval", Align::Numbers),
         ("prior", Align::Numbers),
-        ("identified", Align::Words),
+        ("drives", Align::Numbers),
+        ("", Align::Words),
     ];
     let mut table = Table::new("Fitted weights beside those of the prior style.", &columns);
     for it in report.weights.iter().chain([&report.theta]) {
@@ -102,7 +108,8 @@ fn weights(report: &FitReport) -> Table {
             format!("{:.3}", it.standard_error),
             format!("{lower:.3} to {upper:.3}"),
             format!("{:.3}", it.prior),
-            (if it.is_identified { "yes" } else { "no" }).to_owned(),
+            format!("{:.3}", it.value),
+            told(it),
         ]);
     }
     table

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::following::FollowingReport;
+use super::gaps::GapReport;
 use super::judge::report::Judged;
 use super::plan::Plan;
 use super::prediction::{HeldOut, Predictive};
@@ -20,6 +21,8 @@ pub struct FitReport {
     pub leads_s: Vec<Option<f64>>,
     /// How drivers follow.
     pub following: FollowingReport,
+    /// Which gaps drivers accept.
+    pub gaps: GapReport,
     /// The fitted weights in units of the choice noise.
     pub weights: Vec<WeightReport>,
     /// θ in units of the choice noise, at a place of the mean intercept.
@@ -84,8 +87,15 @@ pub struct WeightReport {
     pub interval: [f64; 2],
     /// The prior value.
     pub prior: f64,
-    /// Whether the recordings tell it.
+    /// The standard deviation of the prior.
+    pub prior_deviation: f64,
+    /// Whether the recordings tell it: its standard deviation is at most half of the prior's, and the likelihood falls
+    /// significantly on both sides.
     pub is_identified: bool,
+    /// Whether its interval excludes 0.
+    pub matters: bool,
+    /// What drives in the fitted style: the prior value, if the recordings do not tell the weight.
+    pub value: f64,
 }
 
 /// β of comfort by its profile likelihood.

@@ -9,7 +9,7 @@ use laneweave_calibration::observe::{Begin, Observations, Options, Origin, obser
 use laneweave_maps::FileKind;
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_recordings::{Matched, Recording, clean, join, lane_changes};
+use laneweave_recordings::{Matched, Recording, clean, cut_ins, join, lane_changes};
 use laneweave_scenario::scenario::{MapOptions, open_map};
 use laneweave_scenario::{Fault, elsewhere, open_recording};
 
@@ -93,6 +93,16 @@ impl Sources {
     /// A recording with the places of its vehicles.
     pub(super) fn matched<'a>(&'a self, part: &'a Part) -> Matched<'a> {
         Matched::new(&self.sites[part.site].network, &part.recording)
+    }
+
+    /// The hardest braking of every follower before whom a recorded driver changes lanes [m/s²].
+    pub(super) fn braking_behind(&self) -> Vec<f64> {
+        let of = |part: &Part| {
+            let matched = self.matched(part);
+            let cut_ins = cut_ins(&matched, &lane_changes(&matched));
+            cut_ins.iter().filter_map(|it| it.braking(&matched)).collect::<Vec<f64>>()
+        };
+        self.parts.iter().flat_map(of).collect()
     }
 
     /// How drivers follow whose road is that of drivers of the style `typical`.

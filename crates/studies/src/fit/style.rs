@@ -17,6 +17,9 @@ use super::report::{ClassReport, ENOUGH, FitReport, FittedStyle, Spread, WeightR
 /// The name of the fitted style; those of several classes have a number, too: `fitted-1`.
 pub const FITTED: &str = "fitted";
 
+/// Critical gaps of drivers lie within these [m]: those that a style may have, and no less than a fit tells apart.
+const CRITICAL_GAPS: [f64; 2] = [0.5, 50.0];
+
 /// The classes of drivers, and their styles.
 pub(super) fn styles(
     observed: &Observed,
@@ -80,13 +83,14 @@ fn text_of(
     set(&mut table, "manner", "calm", Value::Float((report.cooldown_s * 100.0).round() / 100.0));
     if let Some(limits) = report.gap_limits {
         let numbers = [
-            ("min_gap", limits.min_gap_m),
-            // One limit is fitted for both gaps.
-            ("min_lag_gap", 0.0),
             ("min_time_to_collision", limits.min_time_to_collision_s),
             ("max_deceleration", limits.max_deceleration_mps2),
         ];
         numbers.into_iter().for_each(|(key, it)| set(&mut table, "safety", key, Value::Float(it)));
+    }
+    for (logs, it) in report.gaps.critical.iter().filter_map(|it| it.logs().zip(Some(it))) {
+        let key = it.name.key().trim_start_matches("safety.");
+        set(&mut table, "safety", key, lognormal(logs, CRITICAL_GAPS));
     }
     table.insert("fit".into(), Value::Table(provenance(observed, study, report, number)));
     let text = toml::to_string_pretty(&table).map_err(|error| Fault::bug(&class.style, error))?;
@@ -237,7 +241,8 @@ fn intervals(study: &Study, report: &FitReport, draws: &[Vec<(Parameter, f64)>])
         let all = report.weights.iter().chain([&report.theta]);
         let following =
             report.following.numbers.iter().map(|it| (it.name.key().to_owned(), pair(it.interval)));
-        return all.map(|it| (it.name.to_owned(), shifted(it))).chain(following).collect();
+        let gaps = report.gaps.critical.iter().map(|it| (it.name.key().to_owned(), pair(it.median_interval)));
+        return all.map(|it| (it.name.to_owned(), shifted(it))).chain(following).chain(gaps).collect();
     }
     let Some(first) = draws.first() else { return Table::new() };
     let of = |at: usize| {

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::following::FollowingReport;
 use super::found::by_paper_terms;
+use super::gaps::GapReport;
 use super::prediction::HeldOut;
 use super::report::{ByPaper, Correction, FitReport, Spread, WeightReport};
 
@@ -19,7 +20,7 @@ impl FitReport {
 
 fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     report.data.write_counts(out)?;
-    writeln!(out, "\n  weight      estimate   95 % interval          prior")?;
+    writeln!(out, "\n  weight      estimate   95 % interval          prior    drives")?;
     for it in report.weights.iter().chain([&report.theta]) {
         write_weight(it, out)?;
     }
@@ -32,7 +33,7 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     )?;
     writeln!(
         out,
-        "Weights are in units of the choice noise. Not identified: {}.",
+        "Weights are in units of the choice noise. Not identified: {}. A weight matters if its interval excludes 0.",
         report.data.not_identified.join(", ")
     )?;
     if let Some(it) = &report.correction {
@@ -47,6 +48,7 @@ fn write_to(report: &FitReport, out: &mut String) -> std::fmt::Result {
     }
     report.by_paper.iter().try_for_each(|it| write_by_paper(it, out))?;
     write_following(&report.following, out)?;
+    write_gaps(&report.gaps, out)?;
     writeln!(out, "\nPredicting drivers who were not seen [nats per lane change, 95 % interval]")?;
     writeln!(out, "  model       better than a constant chance       mcdm better than it by")?;
     report.held_out.iter().try_for_each(|it| write_held_out(it, out))?;
@@ -80,15 +82,26 @@ pub(super) fn correction(it: &Correction) -> String {
     )
 }
 
+/// What the recordings tell of a weight.
+pub(super) fn told(it: &WeightReport) -> String {
+    let identified = match (it.is_identified, it.name) {
+        (true, _) => "identified",
+        (false, "route") => "not identified: in the prior's proportion to speed",
+        (false, "theta") => "not identified",
+        (false, _) => "not identified: the prior's",
+    };
+    format!("{identified}{}", if it.matters { ", matters" } else { "" })
+}
+
 fn write_weight(it: &WeightReport, out: &mut String) -> std::fmt::Result {
     let [lower, upper] = it.interval;
-    let open = match (it.is_identified, it.name) {
-        (true, _) => "",
-        (false, "route") => "   not identified: in the prior's proportion to speed",
-        (false, _) => "   not identified",
-    };
     let interval = format!("{lower:.2} to {upper:.2}");
-    writeln!(out, "  {:9} {:>10.2}   {interval:<20} {:>7.2}{open}", it.name, it.estimate, it.prior)
+    let (name, told) = (it.name, told(it));
+    writeln!(
+        out,
+        "  {name:9} {:>10.2}   {interval:<20} {:>7.2} {:>9.2}   {told}",
+        it.estimate, it.prior, it.value
+    )
 }
 
 fn write_by_paper(it: &ByPaper, out: &mut String) -> std::fmt::Result {
@@ -127,6 +140,39 @@ fn write_following(it: &FollowingReport, out: &mut String) -> std::fmt::Result {
         let over = with_interval(it.over_constant_m, it.over_constant_interval);
         let (after, is) = (it.after_s, it.fitted_is);
         writeln!(out, "  {after:.1} s {fitted:>10.2} {prior:>9.2} {constant:>16.2}   {over}: {is}")?;
+    }
+    Ok(())
+}
+
+fn write_gaps(it: &GapReport, out: &mut String) -> std::fmt::Result {
+    if let Some(why) = it.not_fitted {
+        return writeln!(out, "\nCritical gaps are the prior style's: {why}.");
+    }
+    writeln!(out, "\nCritical gaps [m], by {} lane changes", it.changes)?;
+    writeln!(out, "  gap                     median   95 % interval          prior   spread of logarithms")?;
+    for it in &it.critical {
+        let [lower, upper] = it.median_interval;
+        let interval = format!("{lower:.2} to {upper:.2}");
+        let [least, most] = it.spread_interval;
+        let spread = format!("{:.2} ({least:.2} to {most:.2})", it.spread);
+        let open = if it.is_identified { "" } else { "   not identified: the prior's" };
+        let name = it.name.key();
+        writeln!(
+            out,
+            "  {name:20} {:>9.2}   {interval:<20} {:>7.2}   {spread}{open}",
+            it.median_m, it.prior_m
+        )?;
+    }
+    if let Some(it) = &it.held_out {
+        let over = with_interval(it.over_prior, it.over_prior_interval);
+        writeln!(
+            out,
+            "Held-out drivers [nats per lane change]: {:.3} by these, {:.3} by the prior's; better by {over}: {}",
+            it.fitted, it.prior, it.fitted_is
+        )?;
+    }
+    if let Some(it) = &it.follower_braking {
+        writeln!(out, "{}", it.to_text())?;
     }
     Ok(())
 }

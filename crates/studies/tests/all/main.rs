@@ -5,6 +5,7 @@ mod commands;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;
 mod following;
+mod gaps;
 #[cfg(feature = "reports")]
 mod mutations;
 mod quick;

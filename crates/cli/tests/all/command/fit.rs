@@ -94,13 +94,29 @@ fn a_fit_says_what_it_knows_and_what_it_does_not() {
     }
     let open: Vec<&str> =
         report["not_identified"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
-    let known = ["speed", "route", "comfort", "courtesy", "alpha", "beta", "classes"];
+    let known = ["speed", "route", "comfort", "courtesy", "keeping", "theta", "alpha", "beta", "classes"];
     assert!(open.iter().all(|it| known.contains(it)), "{open:?}");
     assert!(["route", "alpha", "classes"].iter().all(|it| open.contains(it)), "{open:?}");
     let models: Vec<&Value> =
         report["held_out"].as_array().expect("a list").iter().map(|it| &it["model"]).collect();
     assert_eq!(models, ["constant", "places", "mcdm", "mobil", "lmrs", "raw", "shuffled"]);
     assert_eq!(report["classes"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn what_is_not_identified_drives_at_the_prior() {
+    let style: toml::Table = FITTED.folder.read("fit/fitted.toml").parse().expect("it is TOML");
+    let weights = FITTED.report["weights"].as_array().expect("a list");
+    for weight in weights.iter().filter(|it| it["name"] != "route") {
+        let told = weight["is_identified"].as_bool().expect("yes or no");
+        let value = number(if told { &weight["estimate"] } else { &weight["prior"] });
+        assert_eq!(number(&weight["value"]), value, "{weight}");
+        let driven = &style["change"][weight["name"].as_str().expect("a name")]["weight"];
+        assert_eq!(driven.as_float(), Some(value), "{weight}");
+        let interval = weight["interval"].as_array().expect("a pair");
+        let excludes_0 = number(&interval[0]) > 0.0 || number(&interval[1]) < 0.0;
+        assert_eq!(weight["matters"].as_bool(), Some(excludes_0), "{weight}");
+    }
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Recovery in small.
 
-use laneweave_calibration::observe::Known;
-use laneweave_calibration::{Candidate, DesireModel, Folds};
+use laneweave::network::Side;
+use laneweave_calibration::observe::{Known, Observations, ObservedDriver};
+use laneweave_calibration::{BetaProfile, Candidate, DesireModel, Folds, PriorWeights, Splits, Supposed};
 
 use super::drone::{Driven, NOISE};
 use super::exact;
@@ -45,6 +46,55 @@ fn what_is_known_of_drivers_whom_a_drone_sees_brings_their_weights_nearer() {
 }
 
 #[test]
+fn what_is_supposed_of_drivers_who_are_held_out_is_not_told_by_them() {
+    let driven = Driven::of(&Setting::motorway(), 1, 0.2).expect("built-in styles");
+    let recording = driven.recorded(NOISE);
+    let mut observations =
+        driven.observations(&driven.matched(&recording), Known::default(), 1).expect("what was recorded");
+    let folds = Folds { repetitions: 1, parts: 2, draws: 1, seed: 1 };
+    let prior = PriorWeights {
+        speed: 0.5,
+        route: 0.5,
+        comfort: 0.1,
+        courtesy: 1.7,
+        plain: [0.0],
+        beta: 2.3,
+        alpha: 0.06,
+    };
+    let supposed = |observations: &Observations| {
+        let all = Supposed::by_all(observations, &prior);
+        Splits::of(observations, &prior, all, &folds)
+    };
+    let before = supposed(&observations);
+    // Some of those who are held out first change lanes in the place of others.
+    let [first, second] = &before.by_driver[..] else { panic!("two parts") };
+    let held_out = |it: &usize| first.seen[*it] == 0.0;
+    let changes = |it: &ObservedDriver| it.spells.last().is_some_and(|it| it.change.is_some());
+    let (changed, stayed): (Vec<usize>, Vec<usize>) = (0..observations.drivers.len())
+        .filter(held_out)
+        .filter(|it| !observations.drivers[*it].spells.is_empty())
+        .partition(|it| changes(&observations.drivers[*it]));
+    let mut moved = 0;
+    for (from, to) in changed.into_iter().zip(stayed) {
+        let last = |it: usize| observations.drivers[it].spells.len() - 1;
+        let (from, to) = ((from, last(from)), (to, last(to)));
+        let sides = observations.drivers[to.0].spells[to.1].sightings.last().map(|it| &it.sides);
+        let Some(side) = sides.and_then(|it| Side::BOTH.into_iter().find(|side| it[side.at()].is_some()))
+        else {
+            continue;
+        };
+        observations.drivers[from.0].spells[from.1].change = None;
+        observations.drivers[to.0].spells[to.1].change = Some(side);
+        moved += 1;
+    }
+    assert!(moved > 10, "{moved}");
+    let after = supposed(&observations);
+    assert_eq!(after.by_driver[0], before.by_driver[0]);
+    assert_ne!(after.by_driver[1], *second);
+    assert_ne!(after.all, before.all);
+}
+
+#[test]
 fn a_site_that_was_not_seen_is_predicted_about_as_well_as_drivers_who_were_not() {
     let driven = Driven::of(&Setting::motorway(), 1, 0.4).expect("built-in styles");
     let recording = driven.recorded(NOISE);
@@ -54,9 +104,11 @@ fn a_site_that_was_not_seen_is_predicted_about_as_well_as_drivers_who_were_not()
     observations.sites = 2;
     (0..).zip(&mut observations.drivers).for_each(|(number, driver)| driver.site = number % 2);
     let folds = Folds { repetitions: 1, parts: 2, draws: 100, seed: 1 };
-    let candidate = |model: DesireModel| {
-        Candidate::of(&observations, &model, (&vec![0.0; model.terms().len()], &NO_SPREAD), &folds)
-    };
+    let profile = BetaProfile { profile: Vec::new(), beta: 2.3, interval: [2.3; 2], is_identified: true };
+    let known = Supposed { seen: Vec::new(), spread: NO_SPREAD, effect: 1.0, beta: profile };
+    let splits = Splits::with_known(&observations, &known, &folds);
+    let candidate =
+        |model: DesireModel| Candidate::of(&observations, &model, &vec![0.0; model.terms().len()], &splits);
     let [mcdm, constant] = [DesireModel::Mcdm { beta: 2.3 }, DesireModel::Constant].map(candidate);
     let by_driver = mcdm.better_than(&constant, &observations, &folds);
     let by_site = mcdm.better_elsewhere_than(&constant, &observations, &folds).expect("two sites");
