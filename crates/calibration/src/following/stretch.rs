@@ -63,7 +63,7 @@ pub(super) fn length(drivers: &[Followed]) -> usize {
 pub(super) fn stretches(drivers: &[Followed], length: usize) -> Vec<Stretches> {
     let of = |it: &Followed| Stretches {
         all: it.episodes.iter().flat_map(|it| cut(it, length)).collect(),
-        shown: it.shown.clone(),
+        shown: it.shown,
     };
     drivers.iter().map(of).collect()
 }
@@ -84,7 +84,7 @@ fn cut(episode: &Episode, length: usize) -> impl Iterator<Item = Stretch> {
                 .collect(),
             allowed: episode.allowed,
             strength: episode.strength,
-            shown: seen[0].shown.clone(),
+            shown: seen[0].shown,
         }
     })
 }

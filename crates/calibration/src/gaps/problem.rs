@@ -59,8 +59,10 @@ impl<'a> Problem<'a> {
         let [lead, lag] = before.medians.map(libm::log);
         let spread = libm::log(USUAL_SPREAD);
         // Most drivers go at once into a gap that suits them; a gap test is no law of nature (ours).
-        let means = [lead, spread, lag, spread, 0.0, 0.0, logit(per_look), logit(0.7), logit(0.1), libm::log(0.7)];
-        let deviations = [MEDIAN_PRIOR, SPREAD_PRIOR, MEDIAN_PRIOR, SPREAD_PRIOR, 1.0, 0.5, 0.7, 1.5, 2.0, 0.7];
+        let means =
+            [lead, spread, lag, spread, 0.0, 0.0, logit(per_look), logit(0.7), logit(0.1), libm::log(0.7)];
+        let deviations =
+            [MEDIAN_PRIOR, SPREAD_PRIOR, MEDIAN_PRIOR, SPREAD_PRIOR, 1.0, 0.5, 0.7, 1.5, 2.0, 0.7];
         let precisions = deviations.iter().map(|it| 1.0 / (it * it)).collect();
         Problem {
             offered,

@@ -6,7 +6,8 @@ use super::table::{GRID, Going, Table, node, shares};
 use crate::maximise::ROUGH;
 use crate::waiting::logit;
 
-const GOING: Going = Going { desire: [0.0, 1.0], gives_up: 0.1, goes: 0.8, goes_anyway: 0.0, waits: 0.0 };
+const GOING: Going =
+    Going { desire: [0.0, 1.0], gives_up: 0.1, goes: 0.8, goes_anyway: 0.0, waits: 0.0, unlike: 0.0 };
 
 fn offered(lead: f64, lag: f64) -> Offered {
     Offered { desire: logit(0.2), lead: lead.ln(), lag: lag.ln(), is_possible: true }

@@ -59,7 +59,7 @@ impl Acc {
 
 /// a_CAH: the largest acceleration [m/s²] with which a driver at `speed` [m/s] does not hit `ahead`, if nobody changes
 /// its acceleration.
-pub(crate) fn constant_acceleration(speed: f64, ahead: Ahead) -> f64 {
+pub fn constant_acceleration(speed: f64, ahead: Ahead) -> f64 {
     let (gap, leader) = (ahead.gap.max(Idm::SHORTEST), ahead.acceleration);
     let closing = speed - ahead.speed;
     let reach = ahead.speed * ahead.speed - 2.0 * gap * leader;

@@ -11,8 +11,8 @@ mod newell;
 mod optimal_velocity;
 mod ovm;
 
-pub use acc::Acc;
-pub(crate) use acc::constant_acceleration;
+pub use acc::{Acc, constant_acceleration};
+
 pub use fvdm::Fvdm;
 pub use gfm::{Gfm, GfmForm};
 pub use gipps::Gipps;

@@ -29,14 +29,14 @@ const KNOWN_LANES: [usize; 3] = [2, 3, 4];
 /// For limits [km/h] and these numbers of lanes, the vehicles that leave the road in the counted time, in the default
 /// mixture of styles and classes. A test simulates them, and says what they are if drivers have changed.
 const KNOWN: [(f64, [u64; 3]); 8] = [
-    (30.0, [439, 675, 895]),
-    (50.0, [563, 871, 1161]),
-    (60.0, [603, 933, 1245]),
-    (70.0, [651, 914, 1290]),
-    (80.0, [687, 998, 1370]),
-    (100.0, [690, 1067, 1417]),
-    (120.0, [697, 1066, 1422]),
-    (130.0, [725, 1078, 1433]),
+    (30.0, [466, 697, 927]),
+    (50.0, [585, 859, 1163]),
+    (60.0, [619, 934, 1227]),
+    (70.0, [639, 970, 1298]),
+    (80.0, [690, 1020, 1358]),
+    (100.0, [690, 1067, 1415]),
+    (120.0, [700, 1072, 1422]),
+    (130.0, [725, 1078, 1423]),
 ];
 
 /// Flow over a road of so many `lanes` under `limit` [m/s] and the limit of `law` for long vehicles, of `drivers`, each

@@ -1,11 +1,13 @@
-//! Whether vehicles are going to touch: each moves on with its acceleration and along its curve, for some seconds.
+//! Whether vehicles are going to touch: each moves on at its speed and along its curve, for some seconds.
+//!
+//! Accelerations are not taken along: in three seconds those of recordings, whose errors are large, decide alone.
 
 use laneweave_models::change::Driver;
-use laneweave_models::follow::{Ahead, Pace};
+use laneweave_models::follow::{Ahead, FollowingModel, IdmPlus, Pace, constant_acceleration};
 use laneweave_network::{Point, Pose, Rectangle, turn};
 use laneweave_sim::{Vehicle, VehicleId, World};
 
-use super::part::{Chord, Motion};
+use super::part::Chord;
 
 /// Touches are looked for now and at so many moments, which are so far apart [s]: 3 s ahead.
 const LOOKS: usize = 13;
@@ -16,8 +18,20 @@ const MORE_BRAKING: f64 = 2.0;
 const LEVEL: f64 = 2.0;
 /// Half of the stretch of a lane over which its curvature is taken [m] (ours).
 const CURVE: f64 = 5.0;
-/// A driver who desires so much more than its speed follows closely [m/s] (ours).
+/// How drivers of recorded vehicles follow: as our default drivers do, with the time gap that they accept around a lane
+/// change (ours).
+const FOLLOWS: FollowingModel = FollowingModel::IdmPlus(IdmPlus {
+    acceleration: 2.2,
+    deceleration: COMFORTABLE,
+    time_gap: 0.56,
+    jam_gap: 2.0,
+    exponent: 4.0,
+});
+const COMFORTABLE: f64 = 2.0;
+/// They desire so much more than their speed, so that a free road does not keep them from following [m/s] (ours).
 const HELD_UP: f64 = 10.0;
+/// A vehicle comes no nearer to anybody [m] (ours).
+pub(super) const NEAREST: f64 = 0.5;
 /// The least and the hardest braking to fall back behind a vehicle beside [m/s²], and room that is kept to others [m]
 /// (ours).
 const FALLING_BACK: [f64; 2] = [2.0, 5.0];
@@ -37,13 +51,11 @@ pub(super) struct Moving {
     keeps_lane: bool,
 }
 
-/// How a vehicle moves on: with its acceleration, along its curve.
+/// How a vehicle moves on: at its speed, along its curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Movement {
     /// Speed [m/s].
     pub(super) speed: f64,
-    /// Acceleration [m/s²].
-    pub(super) acceleration: f64,
     /// Direction in which it moves, counter-clockwise from east [rad].
     direction: f64,
     /// Curvature of its path [1/m].
@@ -51,12 +63,6 @@ pub(super) struct Movement {
 }
 
 impl Movement {
-    /// Its way in `time` [s]. It does not drive backwards [m].
-    fn way(&self, time: f64) -> f64 {
-        let moves = if self.acceleration < 0.0 { time.min(self.speed / -self.acceleration) } else { time };
-        moves * (self.speed + 0.5 * self.acceleration * moves)
-    }
-
     /// The pose after `way` [m] from this one on.
     fn after(&self, Pose { at, heading }: Pose, way: f64) -> Pose {
         let (sin, cos) = (self.direction + 0.5 * self.curvature * way).sin_cos();
@@ -68,19 +74,15 @@ impl Movement {
 impl Moving {
     /// A vehicle that drives in lanes, along the curve of its lane.
     pub(super) fn in_lane(vehicle: &Vehicle, world: &World) -> Moving {
-        let acceleration = f64::from(vehicle.motion.acceleration);
-        let curvature = curvature(vehicle, world);
-        Moving {
-            keeps_lane: true,
-            ..Moving::along(vehicle, Movement { acceleration, curvature, ..steady(vehicle) })
-        }
+        let movement = Movement { curvature: curvature(vehicle, world), ..steady(vehicle) };
+        Moving { keeps_lane: true, ..Moving::along(vehicle, movement) }
     }
 
-    /// A recorded vehicle at this speed [m/s] that has moved like this: at its angle to the lane, along the curve of
-    /// the lane. In no lane it goes straight on.
-    pub(super) fn as_before(vehicle: &Vehicle, speed: f64, motion: Motion, world: &World) -> Moving {
-        let straight = Movement { speed, acceleration: motion.acceleration, ..steady(vehicle) };
-        let Some(Chord { way, direction }) = motion.chord else { return Moving::along(vehicle, straight) };
+    /// A recorded vehicle at this speed [m/s] that has come along this chord: at its angle to the lane, along the curve
+    /// of the lane. In no lane it goes straight on.
+    pub(super) fn as_before(vehicle: &Vehicle, speed: f64, chord: Option<Chord>, world: &World) -> Moving {
+        let straight = Movement { speed, ..steady(vehicle) };
+        let Some(Chord { way, direction }) = chord else { return Moving::along(vehicle, straight) };
         let curvature = curvature(vehicle, world);
         // A chord points where the path did in its middle.
         let direction = direction + 0.5 * curvature * way;
@@ -98,7 +100,7 @@ impl Moving {
     }
 
     fn of(id: VehicleId, body: Rectangle, movement: Movement) -> Moving {
-        let ways = std::array::from_fn(|look| movement.way(LOOK * look as f64));
+        let ways = std::array::from_fn(|look| movement.speed * LOOK * look as f64);
         let places = ways.map(|way| Rectangle { pose: movement.after(body.pose, way), ..body });
         Moving { id, speed: movement.speed, ways, places, keeps_lane: false }
     }
@@ -177,7 +179,7 @@ impl Moving {
 /// A vehicle goes straight on at its speed.
 fn steady(vehicle: &Vehicle) -> Movement {
     let (speed, direction) = (vehicle.speed(), vehicle.pose().heading);
-    Movement { speed, acceleration: 0.0, direction, curvature: 0.0 }
+    Movement { speed, direction, curvature: 0.0 }
 }
 
 /// The curvature of the lane where a vehicle is; 0 in no lane [1/m].
@@ -200,23 +202,31 @@ pub(super) fn leader(vehicle: &Vehicle, world: &World) -> Option<(VehicleId, Ahe
 }
 
 /// The acceleration that the driver of a recorded vehicle wants at `speed` [m/s] behind a leader [m/s²]. It follows as
-/// closely as around a lane change: a recording has all headways.
+/// closely as around a lane change, since a recording has all headways. Its numbers are not those of the drivers who
+/// are judged: else the same gap would make it brake beside one style, and not beside another.
 pub(super) fn wish(vehicle: &Vehicle, speed: f64, leader: Ahead) -> f64 {
-    let style = vehicle.style();
-    let headway_relaxation = style.manner.headway_relaxation(1.0);
     let driver = Driver {
-        pace: Pace { speed, desired: speed + HELD_UP, headway_relaxation },
+        pace: Pace { speed, desired: speed + HELD_UP, headway_relaxation: 1.0 },
         acceleration: 0.0,
-        follow: &style.follow,
-        comfortable: style.manner.comfortable_deceleration,
+        follow: &FOLLOWS,
+        comfortable: COMFORTABLE,
         length: vehicle.size()[0],
     };
     driver.demanded(leader)
 }
 
-/// Whether a vehicle whose record accelerates like this [m/s²] would brake clearly harder.
-pub(super) fn brakes_more(wish: f64, recorded: f64) -> bool {
-    wish < recorded.min(0.0) - MORE_BRAKING
+/// The largest acceleration with which a vehicle at `speed` [m/s] does not touch its leader, if nobody changes his
+/// [m/s²]. It keeps no gap that its record does not keep.
+pub(super) fn needed(speed: f64, leader: Ahead) -> f64 {
+    constant_acceleration(
+        speed,
+        Ahead { acceleration: leader.acceleration.min(0.0), ..leader.nearer(NEAREST) },
+    )
+}
+
+/// Whether a vehicle whose record accelerates like this [m/s²] would have to brake clearly harder.
+pub(super) fn brakes_more(needed: f64, recorded: f64) -> bool {
+    needed < recorded.min(0.0) - MORE_BRAKING
 }
 
 #[cfg(test)]
@@ -229,7 +239,7 @@ mod tests {
     }
 
     fn steady(direction: f64, speed: f64) -> Movement {
-        Movement { speed, acceleration: 0.0, direction, curvature: 0.0 }
+        Movement { speed, direction, curvature: 0.0 }
     }
 
     fn car(id: VehicleId, at: [f64; 2], heading: f64, speed: f64) -> Moving {
@@ -243,8 +253,6 @@ mod tests {
         assert_eq!(behind.touches(&ahead), Some(2.25));
         assert_eq!(ahead.touches(&behind), None, "the one behind has to brake");
         assert_eq!(car(1, [0.0, 3.5], 0.0, 20.0).touches(&ahead), None, "in another lane");
-        let brakes = moving(1, [0.0, 0.0], Movement { acceleration: -4.0, ..steady(0.0, 20.0) });
-        assert_eq!(brakes.touches(&ahead), None);
         // Δv²/2s with a metre of room.
         assert!((behind.braking_for(&ahead, 2.0) - 0.5 * 100.0 / 19.0).abs() < 1e-12);
     }
@@ -284,11 +292,5 @@ mod tests {
         let turns = |way: f64| Pose { at: Point::new(way, 1.0, 0.0), heading: 0.5 * std::f64::consts::PI };
         let [.., last] = car(1, [0.0, 0.0], 0.0, 10.0).on_path(20.0, turns).places;
         assert!((last.pose.at.x - 20.0).abs() < 1e-9 && (last.pose.at.y - 11.0).abs() < 1e-9, "{last:?}");
-    }
-
-    #[test]
-    fn who_stops_does_not_drive_backwards() {
-        let [.., last] = moving(1, [0.0, 0.0], Movement { acceleration: -5.0, ..steady(0.0, 10.0) }).places;
-        assert_eq!(last.pose.at.x, 10.0);
     }
 }

@@ -1,12 +1,15 @@
-//! A recorded vehicle that is handed over: it goes on along its recorded path, behind its record.
+//! A recorded vehicle in whose way somebody is: it goes on along its recorded path. It is handed over as soon as it is
+//! behind its record.
 //!
 //! It never gets ahead of its record, so it only needs what was recorded already. It follows whoever is ahead, closely,
 //! and catches up when it can. All numbers are ours.
 
 use laneweave_models::braking::{HARDEST_BRAKING, secure_speed};
-use laneweave_models::change::deceleration_to_avoid;
 use laneweave_models::follow::Ahead;
+use laneweave_sim::VehicleId;
 use serde::{Deserialize, Serialize};
+
+use super::conflict::{NEAREST, needed};
 
 /// The largest acceleration to catch up, and the largest braking to do so [m/s²].
 const CATCHING_UP: [f64; 2] = [2.0, 3.0];
@@ -21,8 +24,6 @@ const BACK: (f64, f64) = (0.3, 0.5);
 const UNFELT: f64 = 0.5;
 /// It brakes so much harder than needed.
 const SPARE: f64 = 1.2;
-/// It comes no nearer to anybody [m].
-const NEAREST: f64 = 0.5;
 
 /// Where a vehicle is on its recorded path.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +34,8 @@ pub(super) struct Course {
     pub(super) speed: f64,
     /// Acceleration [m/s²].
     pub(super) acceleration: f64,
+    /// Who is in its way, as long as it has not left its record because of him: then it is handed over.
+    pub(super) heeds: Option<VehicleId>,
 }
 
 /// What a recorded vehicle does at an instant.
@@ -72,21 +75,27 @@ impl Course {
         let acceleration = (speed - self.speed) / dt;
         let way = self.way + 0.5 * (self.speed + speed) * dt;
         if way < recorded.way {
-            return Course { way, speed, acceleration };
+            return Course { way, speed, acceleration, ..self };
         }
         // With its record it is as fast as recorded, or slower.
-        Course { way: recorded.way.max(self.way), speed: speed.min(recorded.speed), acceleration }
+        let (way, speed) = (recorded.way.max(self.way), speed.min(recorded.speed));
+        Course { way, speed, acceleration, ..self }
     }
 
     /// The acceleration behind a leader who is where the recording has him: no gap is kept that was not kept then.
     fn not_to_touch(self, leader: Ahead) -> f64 {
-        let needed = deceleration_to_avoid((leader.gap - NEAREST).max(0.1), self.speed, leader.speed);
-        if needed < UNFELT { f64::INFINITY } else { -SPARE * needed }
+        let needed = needed(self.speed, Ahead::steady(leader.gap, leader.speed));
+        if needed > -UNFELT { f64::INFINITY } else { SPARE * needed }
     }
 
     /// Whether it is not where its record is.
     pub(super) fn is_behind(self, recorded: Recorded) -> bool {
         recorded.way - self.way > BACK.0
+    }
+
+    /// Who is in its way, if it falls back behind its record now because of him.
+    pub(super) fn leaves_its_record(&mut self, recorded: Recorded) -> Option<VehicleId> {
+        if self.is_behind(recorded) { self.heeds.take() } else { None }
     }
 
     /// Whether it is where and as fast as its record.
@@ -109,7 +118,7 @@ mod tests {
     /// A vehicle at rest 20 m behind its record, which drives on at 10 m/s, with nobody ahead.
     #[test]
     fn it_catches_up_with_its_record_and_is_never_ahead_of_it() {
-        let mut course = Course { way: 0.0, speed: 0.0, acceleration: 0.0 };
+        let mut course = Course { way: 0.0, speed: 0.0, acceleration: 0.0, heeds: None };
         let record = |step: u32| Recorded { way: 20.0 + f64::from(step), speed: 10.0 };
         let back = (1..600).find(|step| {
             course = course.after(&Heeded::default(), record(*step), STEP);
@@ -121,7 +130,7 @@ mod tests {
 
     #[test]
     fn it_stops_behind_who_stands_and_brakes_no_harder_than_vehicles_can() {
-        let mut course = Course { way: 0.0, speed: 15.0, acceleration: 0.0 };
+        let mut course = Course { way: 0.0, speed: 15.0, acceleration: 0.0, heeds: None };
         for step in 1..200 {
             let leader = Some(Ahead::standing(40.0 - course.way));
             let record = Recorded { way: 1.5 * f64::from(step), speed: 15.0 };
@@ -134,7 +143,7 @@ mod tests {
     #[test]
     fn behind_a_leader_on_its_record_it_comes_as_near_as_it_was() {
         // Both drive at 10 m/s, 4 m apart as recorded.
-        let mut course = Course { way: 0.0, speed: 10.0, acceleration: 0.0 };
+        let mut course = Course { way: 0.0, speed: 10.0, acceleration: 0.0, heeds: None };
         for step in 1..400 {
             let record = Recorded { way: 8.0 + f64::from(step), speed: 10.0 };
             let leader = Some(Ahead::steady(record.way + 3.0 - course.way, 10.0));

@@ -5,10 +5,10 @@ use laneweave_network::{Point, Pose};
 use laneweave_sim::{RecordedPose, Vehicle, VehicleId, World};
 
 use super::Player;
-use super::conflict::{Moving, brakes_more, leader, wish};
+use super::conflict::{Moving, brakes_more, leader, needed, wish};
 use super::course::{Course, Heeded, Recorded};
-use super::part::{Motion, Part};
-use super::playback::{Departures, HandOver, Playback, Presence};
+use super::part::Part;
+use super::playback::{HandOver, Playback, Presence};
 
 /// The vehicles of a world, by whether they are where the recording has them.
 struct Others {
@@ -58,16 +58,16 @@ impl Player {
         let (now, dt) = (world.clock().step, world.clock().dt);
         match presence.course {
             Some(course) => Player::on_course(part, course, vehicle, world),
-            None => Moving::as_before(vehicle, part.recorded(now).speed, part.motion(now, dt), world),
+            None => Moving::as_before(vehicle, part.recorded(now).speed, part.motion(now, dt).chord, world),
         }
     }
 
-    /// A vehicle that is handed over as it moves now.
+    /// A vehicle that heeds somebody, or is handed over, as it moves now.
     fn on_course(part: &Part, course: Course, vehicle: &Vehicle, world: &World) -> Moving {
         let (now, dt) = (world.clock().step, world.clock().dt);
-        let (Course { way, speed, acceleration }, recorded) = (course, part.recorded(now));
+        let (Course { way, speed, .. }, recorded) = (course, part.recorded(now));
         let there = part.motion(part.step_at(way), dt);
-        let moving = Moving::as_before(vehicle, speed, Motion { acceleration, ..there }, world);
+        let moving = Moving::as_before(vehicle, speed, there.chord, world);
         // So much of its path has been recorded up to now.
         moving.on_path((recorded.way - way).max(0.0), |further| {
             let RecordedPose { x, y, heading, .. } = part.along(way + further, speed);
@@ -75,9 +75,9 @@ impl Player {
         })
     }
 
-    /// Hands over the recorded vehicles in whose way somebody is who is not where the recording has him. Those that are
-    /// back at their records, and in nobody's way, are theirs again.
-    pub(super) fn hand_over(&self, playback: &mut Playback, world: &World) {
+    /// The recorded vehicles in whose way somebody is who is not where the recording has him heed him from now on. Those
+    /// that are back at their records, and have nobody in their way, are theirs again.
+    pub(super) fn heed(&self, playback: &mut Playback, world: &World) {
         if is_as_recorded(playback, world) {
             return;
         }
@@ -98,15 +98,17 @@ impl Player {
                 Some(_) => {}
                 None => {
                     if let Some(because_of) = in_the_way() {
-                        begin(part, presence, (&vehicle, because_of), departures, world);
+                        let Recorded { way, speed } = recorded;
+                        let acceleration = part.motion(now, world.clock().dt).acceleration;
+                        presence.course = Some(Course { way, speed, acceleration, heeds: Some(because_of) });
                     }
                 }
             }
         }
     }
 
-    /// Hands over a vehicle that has just come, too late, since another one was in the way.
-    pub(super) fn begin_hand_over(
+    /// A vehicle has just come, too late, since another one was in the way.
+    pub(super) fn come_late(
         &self,
         number: usize,
         because_of: VehicleId,
@@ -114,11 +116,10 @@ impl Player {
         playback: &mut Playback,
         world: &World,
     ) {
-        let Playback { parts, departures } = playback;
         let Some(vehicle) = world.vehicle(id) else { return };
-        begin(&self.parts[number], &mut parts[number], (&vehicle, because_of), departures, world);
-        let late = Course { way: 0.0, speed: vehicle.speed(), acceleration: 0.0 };
-        parts[number].course = Some(late);
+        let late = Course { way: 0.0, speed: vehicle.speed(), acceleration: 0.0, heeds: None };
+        playback.parts[number].course = Some(late);
+        playback.departures.hand_overs.push(begun(&self.parts[number], &vehicle, because_of, world));
     }
 
     /// Who would make a vehicle on its record brake clearly harder than it was recorded, or touch it.
@@ -131,23 +132,25 @@ impl Player {
     ) -> Option<VehicleId> {
         let (now, dt) = (world.clock().step, world.clock().dt);
         let (recorded, motion) = (part.recorded(now), part.motion(now, dt));
-        let own = Moving::as_before(vehicle, recorded.speed, motion, world);
+        let own = Moving::as_before(vehicle, recorded.speed, motion.chord, world);
         let leader = leader(vehicle, world).filter(|it| !others.is_on_record(it.0));
-        let brakes = |it: &Ahead| brakes_more(wish(vehicle, own.speed, *it), motion.acceleration);
+        let brakes = |it: &Ahead| brakes_more(needed(own.speed, *it), motion.acceleration);
         if let Some((id, _)) = leader.filter(|it| brakes(&it.1)) {
             return Some(id);
         }
         others.elsewhere.iter().find(|it| it.id != own.id && own.touches(it).is_some()).map(|it| it.id)
     }
 
-    /// The vehicles that are handed over drive on by a step.
+    /// The vehicles that heed somebody, or are handed over, drive on by a step. Those that fall back behind their records
+    /// are handed over.
     pub(super) fn advance_courses(&self, playback: &mut Playback, world: &World) {
         if playback.parts.iter().all(|it| it.course.is_none()) {
             return;
         }
         let others = self.others(playback, world);
         let (now, dt) = (world.clock().step, world.clock().dt);
-        for (part, presence) in self.parts.iter().zip(&mut playback.parts) {
+        let Playback { parts, departures } = playback;
+        for (part, presence) in self.parts.iter().zip(parts) {
             let Some(vehicle) = on_its_path(presence, world) else { continue };
             let Some(course) = &mut presence.course else { continue };
             // It brakes for whom it would touch if it did not brake.
@@ -162,6 +165,9 @@ impl Player {
                 to_avoid: to_avoid.reduce(f64::max),
             };
             *course = course.after(&heeded, part.recorded(now + 1), dt);
+            if let Some(because_of) = course.leaves_its_record(part.recorded(now + 1)) {
+                departures.hand_overs.push(begun(part, &vehicle, because_of, world));
+            }
         }
     }
 }
@@ -172,26 +178,17 @@ fn is_as_recorded(playback: &Playback, world: &World) -> bool {
     playback.parts.iter().all(|it| it.course.is_none()) && present.count() == world.on_road()
 }
 
-/// A hand-over of a vehicle begins because of another one.
-fn begin(
-    part: &Part,
-    presence: &mut Presence,
-    (vehicle, because_of): (&Vehicle, VehicleId),
-    departures: &mut Departures,
-    world: &World,
-) {
-    let (now, dt) = (world.clock().step, world.clock().dt);
-    let (Recorded { way, speed }, acceleration) = (part.recorded(now), part.motion(now, dt).acceleration);
-    presence.course = Some(Course { way, speed, acceleration });
-    let (id, at) = (vehicle.id(), vehicle.pose().at);
-    departures.hand_overs.push(HandOver {
+/// The hand-over of a vehicle that begins now because of another one.
+fn begun(part: &Part, vehicle: &Vehicle, because_of: VehicleId, world: &World) -> HandOver {
+    let at = vehicle.pose().at;
+    HandOver {
         recorded: part.recorded,
-        vehicle: id,
+        vehicle: vehicle.id(),
         because_of,
-        from_step: now,
+        from_step: world.clock().step,
         until_step: None,
         at: [at.x, at.y],
-    });
+    }
 }
 
 /// The vehicle of a part, if it is on the road and nobody drives it.

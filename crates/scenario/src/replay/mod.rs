@@ -184,7 +184,7 @@ impl Player {
     pub(crate) fn played<'a>(&'a self, playback: &'a Playback) -> impl Iterator<Item = Played> + 'a {
         self.parts.iter().zip(&playback.parts).filter_map(|(part, presence)| {
             let is_reactive = self.is_driver(part, part.last_step());
-            let is_handed_over = presence.course.is_some();
+            let is_handed_over = presence.is_handed_over();
             let recorded = part.recorded;
             presence.vehicle.map(|vehicle| Played { recorded, vehicle, is_reactive, is_handed_over })
         })
@@ -228,7 +228,7 @@ impl Player {
                 self.release(part, id, presence, departures, world);
             }
         }
-        self.hand_over(playback, world);
+        self.heed(playback, world);
     }
 
     /// Takes the vehicles off the road whose records have ended.
@@ -279,7 +279,7 @@ impl Player {
         *id = world.put_recorded(&place).ok();
         *behind_m = apart(&vehicle, &place);
         if let (Some(because_of), Some(id), false) = (*refused_for, *id, is_driver) {
-            self.begin_hand_over(number, because_of, id, playback, world);
+            self.come_late(number, because_of, id, playback, world);
         }
     }
 

@@ -20,7 +20,7 @@ pub(crate) struct Playback {
 pub(super) struct Presence {
     /// The id of its vehicle, once that has come.
     pub(super) vehicle: Option<VehicleId>,
-    /// Where the vehicle is on its path, while it is handed over.
+    /// Where the vehicle is on its path, while somebody is in its way, and until it is back at its record.
     pub(super) course: Option<Course>,
     /// Where it leaves the view as a driver.
     pub(super) leaving: Option<Leaving>,
@@ -94,10 +94,17 @@ impl Playback {
     }
 }
 
+impl Presence {
+    /// Whether the vehicle has left its record.
+    pub(super) fn is_handed_over(&self) -> bool {
+        self.course.is_some_and(|it| it.heeds.is_none())
+    }
+}
+
 impl Departures {
     /// The last hand-over of a vehicle ends in this step.
     pub(super) fn end_hand_over(&mut self, vehicle: VehicleId, step: u32) {
         let last = self.hand_overs.iter_mut().rev().find(|it| it.vehicle == vehicle);
-        last.into_iter().for_each(|it| it.until_step = Some(step));
+        last.into_iter().filter(|it| it.until_step.is_none()).for_each(|it| it.until_step = Some(step));
     }
 }

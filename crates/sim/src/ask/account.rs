@@ -8,10 +8,10 @@ use laneweave_models::follow::Ahead;
 use laneweave_models::{Concentration, Style};
 use laneweave_network::Side;
 
-use crate::driver::accelerate::stays_behind;
 use crate::driver::choice::is_out_of_question;
 use crate::driver::consider::{has_last_chance, look, waypoint};
 use crate::driver::decide::decide_one;
+use crate::driver::fall_in::stays_behind;
 use crate::driver::gap::{Hindrance, Pairing, gap};
 use crate::driver::me::{Attending, Me};
 use crate::driver::plan::{Ask, Outbox, Plan};

@@ -2,22 +2,23 @@
 
 use laneweave_models::braking::{HARD_BRAKING, HARDEST_BRAKING, secure_speed, stays_secure};
 use laneweave_models::comfortable::{comfortably, is_calm};
-use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel, Pace};
+use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel};
 use laneweave_network::ChainIndex;
 
+use crate::driver::fall_in::{falling_in, staying_behind};
 use crate::driver::lane_end::{self, LaneEnd, is_leaving};
-use crate::driver::last_place::{HARDLY_MOVES, before_the_last_place, kept_room, within_window};
+use crate::driver::last_place::{before_the_last_place, kept_room, within_window};
+use crate::driver::me::pace;
 use crate::driver::merge;
 use crate::driver::misperception::misperception;
 use crate::driver::stopping::{stopping_way, to_stop_at};
-use crate::driver::window::leader_beside;
 use crate::record::events::BrakingCause;
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::{FirstIntoMerge, Junction};
 use crate::state::clock::Clock;
-use crate::state::lane::{DriverState, Kinematics, LaneChangeKind, Phase};
+use crate::state::lane::{DriverState, Kinematics, Phase};
 use crate::state::random::Purpose;
-use crate::state::standstill::{ROOM_AT_A_STOP, STANDS};
+use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::view::scene::{Scene, Spot};
 
 /// The acceleration that a driver chose.
@@ -262,36 +263,11 @@ fn at_junction(
     (wish.or(stopping, BrakingCause::Stop), Some(Ahead::standing(stop)))
 }
 
-fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
-    Pace {
-        speed: motion.speed,
-        desired: f64::from(driver.desired),
-        headway_relaxation: f64::from(motion.headway_relaxation),
-    }
-}
-
 /// `clamp` for ordered bounds.
 #[inline]
 fn within(value: f64, low: f64, high: f64) -> f64 {
     let value = if value < high { value } else { high };
     if value > low { value } else { low }
-}
-
-/// The acceleration behind the leader in the overtaking lane [m/s²], if the driver at `spot` may not pass that.
-pub(super) fn staying_behind(scene: &Scene, spot: Spot) -> Option<f64> {
-    let (offside, style) = (stays_behind(scene, spot)?, scene.style(spot));
-    let acceleration = style.follow.acceleration(pace(scene.motion(spot), scene.driver(spot)), Some(offside));
-    Some(acceleration.max(-style.manner.adjust_deceleration))
-}
-
-/// The leader in the overtaking lane, if the driver at `spot` would pass it and may not: there the law forbids to pass
-/// on the slow side.
-pub(crate) fn stays_behind(scene: &Scene, spot: Spot) -> Option<Ahead> {
-    if !scene.lane_change(spot).minds_offside {
-        return None;
-    }
-    let offside = leader_beside(scene, spot, scene.network.driving_side.overtaking());
-    offside.filter(|it| scene.style(spot).change.stays_behind(scene.motion(spot).speed, *it))
 }
 
 /// The acceleration of a driver who reacts to more than its leader, and the end of its lane.
@@ -346,19 +322,8 @@ fn beyond_the_leader(scene: &Scene, clock: Clock, spot: Spot, wish: Wish) -> Wis
     let style = scene.style_of(driver);
     let mut wish = wish;
     if driver.phase == Phase::Wants {
-        let beside = leader_beside(scene, spot, lane_change.side);
-        // Along a standing queue a driver drives on: there may be a gap ahead, and others behind want to pass.
-        let drives_on = motion.speed < HARDLY_MOVES && beside.is_some_and(|it| it.speed < STANDS);
-        let falls_in = f64::from(lane_change.urgency) >= style.change.synchronizes_from();
-        if falls_in && !drives_on {
-            let falling_in = style.follow.acceleration(pace, beside);
-            let manner = &style.manner;
-            let hardest = match lane_change.kind {
-                LaneChangeKind::Route => manner.adjust_deceleration,
-                LaneChangeKind::Discretionary | LaneChangeKind::Keeping => manner.free_adjust_deceleration,
-            };
-            wish = wish.or(falling_in.max(-hardest), BrakingCause::CutIn);
-        }
+        let falling_in = falling_in(scene, spot, pace).unwrap_or(f64::INFINITY);
+        wish = wish.or(falling_in, BrakingCause::CutIn);
     }
     if let Some(acceleration) = staying_behind(scene, spot) {
         wish = wish.or(acceleration, BrakingCause::Leader);

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use laneweave_models::change::LaneChangeModel;
+use laneweave_models::follow::Pace;
 use laneweave_models::{Alertness, Attention, Concentration, Style};
 
 use crate::driver::attention::concentration;
@@ -26,6 +27,16 @@ impl<'a> Me<'a> {
     pub(crate) fn at(scene: &Scene<'a>, spot: Spot) -> Me<'a> {
         let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
         Me { spot, motion, driver, lane_change, style: scene.style_of(driver) }
+    }
+}
+
+/// Its motion, as car-following models take it.
+#[inline]
+pub(super) fn pace(motion: &Kinematics, driver: &DriverState) -> Pace {
+    Pace {
+        speed: motion.speed,
+        desired: f64::from(driver.desired),
+        headway_relaxation: f64::from(motion.headway_relaxation),
     }
 }
 

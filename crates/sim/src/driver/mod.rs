@@ -4,7 +4,8 @@
 //! * `turn.rs`, `consider.rs`, `choice.rs` and `decide.rs` lane changes; `gap.rs` the gap beside, and why it is not
 //!   accepted; `misperception.rs` the errors with which a driver sees others; `window.rs` and `last_place.rs` short
 //!   stretches on which lanes may be changed
-//! * `drive.rs`, `accelerate.rs`, `two_lanes.rs`, `merge.rs`, `stopping.rs` and `lane_end.rs` the next motion
+//! * `drive.rs`, `accelerate.rs`, `fall_in.rs`, `two_lanes.rs`, `merge.rs`, `stopping.rs` and `lane_end.rs` the next
+//!   motion
 //! * `request_reservation.rs` junctions; `stuck.rs` who stands for nothing
 //! * `beliefs.rs` and `leave.rs` how drivers take guidance
 //! * `obey.rs` external vehicles; `plan.rs` what a step writes down; `intention.rs` and `wish.rs` what is read of it
@@ -16,6 +17,7 @@ pub(crate) mod choice;
 pub(crate) mod consider;
 pub(crate) mod decide;
 pub(crate) mod drive;
+pub(crate) mod fall_in;
 pub(crate) mod gap;
 pub(crate) mod intention;
 pub(crate) mod lane_end;

@@ -1,7 +1,8 @@
 //! Drivers who follow leaders in two lanes: their vehicle changes lanes, or they may not pass a vehicle in the
 //! overtaking lane. Usually they react to nothing else, and need no closer look.
 
-use crate::driver::accelerate::{OpenRoad, behind, staying_behind};
+use crate::driver::accelerate::{OpenRoad, behind};
+use crate::driver::fall_in::staying_behind;
 use crate::driver::lane_end::lane_end;
 use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;

@@ -104,6 +104,27 @@ fn it_changes_lanes_once_for_each_command() {
 }
 
 #[test]
+fn who_wants_to_join_vehicles_that_follow_each_other_closely_does_not_fall_back_beside_them() {
+    // Twenty cars crawl along, with 2 m between them: no gap is long enough. Its own lane is free.
+    let mut world = world("motorway_3_lanes.osm", 0.0, 1, 1);
+    for at in 0..20 {
+        let crawls = insert(&mut world, 2, 10.0 + 6.5 * f64::from(at), 3.0);
+        drive(&mut world, crawls, Longitudinal::Speed(3.0), Lateral::Keep);
+    }
+    let own = insert(&mut world, 1, 60.0, 8.0);
+    drive(&mut world, own, Longitudinal::Driver, Lateral::Change(Side::Left));
+    let mut slowest = f64::INFINITY;
+    for _ in 0..150 {
+        steps(&mut world, 1);
+        slowest = slowest.min(world.vehicle(own).expect("it is on the road").speed());
+    }
+    assert!(slowest > 7.0, "{slowest}");
+    // Ahead of them there is room.
+    steps(&mut world, 200);
+    assert!(y(&world, own) > y(&world, 1_000_000_000) - 0.5, "{}", y(&world, own));
+}
+
+#[test]
 fn a_change_is_aborted_before_the_centre_crosses_the_line_and_completed_after() {
     for (wait, is_completed) in [(15, false), (30, true)] {
         let (mut world, id) = alone();

@@ -143,8 +143,10 @@ impl History {
     fn on_its_way(&self, ago: usize, own: VehicleId, way: f64) -> Option<Rectangle> {
         let mut left = way;
         for at in (1..=ago).rev() {
-            let (from, to) = (self.at(at, own)?.rectangle, self.at(at - 1, own)?.rectangle);
-            let step = from.pose.at.distance(&to.pose.at);
+            let (before, after) = (self.at(at, own)?, self.at(at - 1, own)?);
+            // Along the lane, as speeds are: in a lane change it also moves sideways.
+            let step = 0.5 * (before.speed + after.speed) * self.step;
+            let (from, to) = (before.rectangle, after.rectangle);
             if step >= left && step > 0.0 {
                 let (share, turned) = (left / step, to.pose.heading - from.pose.heading);
                 let at = from.pose.at.towards(&to.pose.at, share);
