@@ -23,7 +23,9 @@ pub struct BetaProfile {
 }
 
 /// Values of β that are tried.
-const BETAS: [f64; 8] = [0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0];
+pub(crate) const BETAS: [f64; 8] = [0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0];
+/// Those that are tried for drivers of whom some are held out: predictions hardly depend on the exact β (ours).
+pub(crate) const COARSE: [f64; 4] = [0.2, 1.0, 2.0, 5.0];
 
 /// Drivers whose β is asked for: how often each of them counts, how much places differ, and how much terms do.
 pub(crate) struct Counting<'a> {
@@ -33,15 +35,17 @@ pub(crate) struct Counting<'a> {
 }
 
 impl BetaProfile {
-    /// Profiles the likelihood of multi-criteria decision-making over β, for each of several choices of drivers.
+    /// Profiles the likelihood of multi-criteria decision-making over these `betas`, for each of several choices of
+    /// drivers.
     pub(crate) fn of_each(
         observations: &Observations,
         prior: &PriorWeights,
+        betas: &[f64],
         choices: &[Counting],
     ) -> Vec<BetaProfile> {
         let mut starts: Vec<Option<(Vec<f64>, Matrix)>> = vec![None; choices.len()];
-        let mut logs = vec![Vec::with_capacity(BETAS.len()); choices.len()];
-        for beta in BETAS {
+        let mut logs = vec![Vec::with_capacity(betas.len()); choices.len()];
+        for &beta in betas {
             let design = observations.design(&DesireModel::Mcdm { beta });
             let each = choices.par_iter().zip(&mut starts).zip(&mut logs);
             each.for_each(|((counting, start), logs)| {
@@ -71,7 +75,7 @@ impl BetaProfile {
         let inside = |it: &&(f64, f64)| it.1 > -SIGNIFICANT;
         let lower = profile.iter().find(inside).map_or(f64::NAN, |it| it.0);
         let upper = profile.iter().rev().find(inside).map_or(f64::NAN, |it| it.0);
-        let is_identified = lower > BETAS[0] && upper < BETAS[BETAS.len() - 1];
+        let is_identified = lower > profile[0].0 && upper < profile[profile.len() - 1].0;
         let best = profile.iter().find(|it| it.1 == 0.0).map_or(prior, |it| it.0);
         let beta = if is_identified { best } else { prior };
         BetaProfile { profile, beta, interval: [lower, upper], is_identified }

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use crate::beta::{BetaProfile, Counting};
+use crate::beta::{BETAS, BetaProfile, COARSE, Counting};
 use crate::desire_model::DesireModel;
 use crate::held_out::Folds;
 use crate::observe::Observations;
@@ -62,7 +62,7 @@ impl Supposed {
     /// By all drivers.
     pub fn by_all(observations: &Observations, prior: &PriorWeights) -> Supposed {
         let all = vec![1.0; observations.drivers.len()];
-        Supposed::by_each(observations, prior, vec![all]).remove(0)
+        Supposed::by_each(observations, prior, &BETAS, vec![all]).remove(0)
     }
 
     /// As a study of all drivers has it.
@@ -71,15 +71,20 @@ impl Supposed {
         Supposed { seen: vec![1.0; observations.drivers.len()], spread, effect, beta: beta.clone() }
     }
 
-    /// By each of several choices of drivers.
-    fn by_each(observations: &Observations, prior: &PriorWeights, choices: Vec<Vec<f64>>) -> Vec<Supposed> {
+    /// By each of several choices of drivers; these `betas` are tried.
+    fn by_each(
+        observations: &Observations,
+        prior: &PriorWeights,
+        betas: &[f64],
+        choices: Vec<Vec<f64>>,
+    ) -> Vec<Supposed> {
         let [places, design] = designs(observations, prior);
         let spreads: Vec<(PlaceSpread, f64)> =
             choices.par_iter().map(|it| spreads_of([&places, &design], prior, it)).collect();
         let each = choices.iter().zip(&spreads);
         let counting: Vec<Counting> =
             each.map(|(weights, &(spread, effect))| Counting { weights, spread, effect }).collect();
-        let betas = BetaProfile::of_each(observations, prior, &counting);
+        let betas = BetaProfile::of_each(observations, prior, betas, &counting);
         let each = choices.into_iter().zip(spreads).zip(betas);
         each.map(|((seen, (spread, effect)), beta)| Supposed { seen, spread, effect, beta }).collect()
     }
@@ -111,8 +116,8 @@ impl Splits {
     pub fn of(observations: &Observations, prior: &PriorWeights, all: Supposed, asked: &Folds) -> Splits {
         let seen = by_driver(observations, asked);
         let repeated = seen.len();
-        let mut supposed =
-            Supposed::by_each(observations, prior, seen.into_iter().chain(by_site(observations)).collect());
+        let choices = seen.into_iter().chain(by_site(observations)).collect();
+        let mut supposed = Supposed::by_each(observations, prior, &COARSE, choices);
         let by_site = supposed.split_off(repeated);
         Splits { all, by_driver: supposed, parts: asked.parts, by_site }
     }

@@ -100,8 +100,11 @@ const NEAR: f64 = 0.1;
 
 #[test]
 fn the_share_of_simulated_drivers_who_accept_a_gap_comes_back_at_its_quartiles() {
-    let (recordings, seconds) = size().pick((1, 600.0), (6, 900.0));
-    let fit = fitted(recordings, seconds, 1);
+    // Less time does not tell them, and takes a minute.
+    if !size().pick(false, true) {
+        return;
+    }
+    let fit = fitted(6, 900.0, 1);
     for (kind, gap) in fit.gaps.iter().enumerate() {
         assert!(CriticalGap::is_identified(gap), "{gap:?}");
         for (share, z) in [(0.25, -0.674_490), (0.5, 0.0), (0.75, 0.674_490)] {
