@@ -49,8 +49,8 @@ struct Scored {
     wrong: [[Wrong; 3]; 3],
 }
 
-/// The scores of all drivers in stretches as long as the last horizon, each predicted by what was fitted to the stretches
-/// `cut` of those of other parts, from `start` on; none if nothing can be fitted.
+/// The scores of all drivers in stretches as long as the last horizon, each predicted by what was fitted to the
+/// stretches `cut` of those of other parts, from `start` on; none if nothing can be fitted.
 pub(super) fn scores(
     style: &Style,
     drivers: &[Followed],

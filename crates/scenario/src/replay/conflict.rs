@@ -43,6 +43,7 @@ pub(super) struct Moving {
     pub(super) id: VehicleId,
     /// Speed [m/s].
     pub(super) speed: f64,
+    movement: Movement,
     /// Its way until each look [m].
     ways: [f64; LOOKS],
     /// The ground that it covers then.
@@ -102,18 +103,17 @@ impl Moving {
     fn of(id: VehicleId, body: Rectangle, movement: Movement) -> Moving {
         let ways = std::array::from_fn(|look| movement.speed * LOOK * look as f64);
         let places = ways.map(|way| Rectangle { pose: movement.after(body.pose, way), ..body });
-        Moving { id, speed: movement.speed, ways, places, keeps_lane: false }
+        Moving { id, speed: movement.speed, movement, ways, places, keeps_lane: false }
     }
 
-    /// The same vehicle, of whose path the next `known` [m] are known: where it is after a way along it.
+    /// The same vehicle, of whose path the next `known` [m] are known: where it is after a way along it. Beyond, it goes
+    /// on in the direction in which it moves.
     pub(super) fn on_path(mut self, known: f64, pose: impl Fn(f64) -> Pose) -> Moving {
         let end = pose(known);
         for (place, way) in self.places.iter_mut().zip(self.ways) {
-            let beyond = (way - known).max(0.0);
-            let Pose { at, heading } = if beyond > 0.0 { end } else { pose(way) };
-            let (sin, cos) = heading.sin_cos();
-            let (x, y) = (at.x + beyond * cos, at.y + beyond * sin);
-            place.pose = Pose { at: Point { x, y, z: place.pose.at.z }, heading };
+            let Pose { at, heading } =
+                if way > known { self.movement.after(end, way - known) } else { pose(way) };
+            place.pose = Pose { at: Point { z: place.pose.at.z, ..at }, heading };
         }
         self
     }
@@ -288,9 +288,9 @@ mod tests {
     }
 
     #[test]
-    fn who_follows_a_known_path_is_on_it_and_goes_straight_on_beyond() {
+    fn who_follows_a_known_path_is_on_it_and_goes_on_beyond_as_its_record_does_there() {
         let turns = |way: f64| Pose { at: Point::new(way, 1.0, 0.0), heading: 0.5 * std::f64::consts::PI };
-        let [.., last] = car(1, [0.0, 0.0], 0.0, 10.0).on_path(20.0, turns).places;
+        let [.., last] = car(1, [0.0, 0.0], 0.5 * std::f64::consts::PI, 10.0).on_path(20.0, turns).places;
         assert!((last.pose.at.x - 20.0).abs() < 1e-9 && (last.pose.at.y - 11.0).abs() < 1e-9, "{last:?}");
     }
 }

@@ -66,8 +66,8 @@ impl Player {
     fn on_course(part: &Part, course: Course, vehicle: &Vehicle, world: &World) -> Moving {
         let (now, dt) = (world.clock().step, world.clock().dt);
         let (Course { way, speed, .. }, recorded) = (course, part.recorded(now));
-        let there = part.motion(part.step_at(way), dt);
-        let moving = Moving::as_before(vehicle, speed, there.chord, world);
+        // Where its record is, it moves on in the direction of that.
+        let moving = Moving::as_before(vehicle, speed, part.motion(now, dt).chord, world);
         // So much of its path has been recorded up to now.
         moving.on_path((recorded.way - way).max(0.0), |further| {
             let RecordedPose { x, y, heading, .. } = part.along(way + further, speed);

@@ -95,12 +95,6 @@ impl Part {
         Motion { acceleration, chord: (way >= SHORT).then_some(Chord { way, direction }) }
     }
 
-    /// The step in which it has come so far along its path [m].
-    pub(super) fn step_at(&self, way: f64) -> u32 {
-        let at = self.ways.partition_point(|it| *it < way).min(self.ways.len() - 1);
-        self.first_step + at as u32
-    }
-
     /// Length of its path [m].
     pub(super) fn path(&self) -> f64 {
         self.ways[self.ways.len() - 1]

@@ -87,7 +87,7 @@ fn what_is_supposed_of_drivers_who_are_held_out_is_not_told_by_them() {
         observations.drivers[to.0].spells[to.1].change = Some(side);
         moved += 1;
     }
-    assert!(moved > 10, "{moved}");
+    assert!(moved > 5, "{moved}");
     let after = supposed(&observations);
     assert_eq!(after.by_driver[0], before.by_driver[0]);
     assert_ne!(after.by_driver[1], *second);

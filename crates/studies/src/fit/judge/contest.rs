@@ -4,7 +4,7 @@ use laneweave_scenario::Fault;
 
 use super::SAME_DRAW;
 use super::advance::Advance;
-use super::models::{ROLLOUTS, Rival, STEPS};
+use super::models::{ROLLOUTS, Rate, Rival, STEPS};
 use super::report::{Design, JudgedMeasure, JudgedModel, Measured, Predicted, measured};
 use super::rollout::{Drivers, Stage};
 use super::tally::{Scope, Tally};
@@ -22,18 +22,17 @@ pub(super) struct Contestant {
 }
 
 impl Contestant {
-    /// All of them: the fitted drivers first, then the rivals, whose numbers are fitted to the recorded `rate` of lane
-    /// changes on these stages, and last the drivers of a built-in style as they are.
+    /// All of them: the fitted drivers first, then the rivals, whose numbers are fitted to the rate of lane changes that
+    /// was `recorded`, and last the drivers of a built-in style as they are.
     ///
     /// # Errors
     /// If a simulation cannot run.
     pub(super) fn all(
         [fitted, default]: [Drivers; 2],
-        before: &[(Stage, Scope)],
-        rate: f64,
+        recorded: &Rate,
         (threads, advance): (usize, &Advance),
     ) -> Result<Vec<Contestant>, Fault> {
-        let scales = in_parallel(&Rival::ALL, threads, |it| it.fitted(&fitted, before, rate, advance))?;
+        let scales = in_parallel(&Rival::ALL, threads, |it| it.fitted(&fitted, recorded, advance))?;
         let mut all =
             vec![Contestant { name: "fitted", scale: None, drivers: fitted.clone(), is_drawn: true }];
         for (rival, scale) in Rival::ALL.into_iter().zip(scales) {
@@ -47,7 +46,7 @@ impl Contestant {
     /// Simulations that it takes to fit the rivals and to roll out all models in so many designs.
     pub(super) fn simulations(rollouts: &Rollouts, designs: usize) -> usize {
         let models = Rival::ALL.len() + 2;
-        Rival::ALL.len() * STEPS * ROLLOUTS as usize + models * rollouts.count as usize * designs
+        (Rival::ALL.len() + 1) * STEPS * ROLLOUTS as usize + models * rollouts.count as usize * designs
     }
 }
 

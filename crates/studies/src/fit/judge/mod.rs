@@ -30,8 +30,10 @@ use laneweave_scenario::Fault;
 use super::Observed;
 use super::report::FitReport;
 use super::sources::Sources;
+use super::style::styles;
 use advance::Advance;
 use contest::{Contestant, Stages};
+use models::Rate;
 use rollout::{Drivers, Stage};
 use split::{Piece, Split, between};
 use tally::{Scope, Tally};
@@ -77,9 +79,17 @@ impl Observed {
         let default = Drivers { styles: vec![(self.request.prior_source()?.text, 1.0)], draw: None };
         let advance = Advance::of(Contestant::simulations(rollouts, 2), show);
         let before = self.stages(&split.before, &fitted)?;
-        let rate = before.recorded.rate().unwrap_or(0.0);
-        let drivers = [fitted.clone(), default];
-        let models = Contestant::all(drivers, &before.stages, rate, (rollouts.threads, &advance))?;
+        let rate = Rate { stages: &before.stages, per_km: before.recorded.rate().unwrap_or(0.0) };
+        let moved = |by: f64| {
+            let study = Study { mean_place: study.mean_place - by, ..study.clone() };
+            let (_, styles) = styles(&observed, &study, &report)?;
+            let shares = report.classes.iter().map(|it| it.share);
+            Ok(Drivers { styles: styles.into_iter().map(|it| it.text).zip(shares).collect(), draw: None })
+        };
+        let by = rate.reached([-4.0, 4.0], moved, &advance)?;
+        eprintln!("theta moved by {by}");
+        let drivers = [moved(by)?, default];
+        let models = Contestant::all(drivers, &rate, (rollouts.threads, &advance))?;
         let (third, judged) = self.stages(&split.after, &fitted)?.judged(&models, rollouts, &advance)?;
         let (snapshots, _) = self.stages(&split.snapshots, &fitted)?.judged(&models, rollouts, &advance)?;
         Ok(Some(Judged {

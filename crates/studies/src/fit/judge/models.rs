@@ -84,30 +84,46 @@ impl Rival {
         Ok(Drivers { styles, draw: None })
     }
 
-    /// The number with which these drivers change lanes as often as recorded, `rate` times per vehicle-kilometre, on
-    /// the stages with their scopes: by bisection; at an end of its range, if they never do.
+    /// The number with which these drivers change lanes as often as `recorded`.
     ///
     /// # Errors
     /// If a simulation cannot run.
-    pub(super) fn fitted(
-        self,
-        drivers: &Drivers,
-        stages: &[(Stage, Scope)],
-        rate: f64,
+    pub(super) fn fitted(self, drivers: &Drivers, recorded: &Rate, advance: &Advance) -> Result<f64, Fault> {
+        recorded.reached(self.range(), |number| self.drives(drivers, number), advance)
+    }
+}
+
+/// How often recorded drivers changed lanes, and where.
+pub(super) struct Rate<'a> {
+    /// Stages with their scopes.
+    pub(super) stages: &'a [(Stage, Scope<'a>)],
+    /// Changes per vehicle-kilometre there.
+    pub(super) per_km: f64,
+}
+
+impl Rate<'_> {
+    /// The number in this range with which drivers change lanes as often as recorded, the less often the larger it is:
+    /// by bisection; at an end of the range, if they never do.
+    ///
+    /// # Errors
+    /// If a simulation cannot run.
+    pub(super) fn reached(
+        &self,
+        [mut low, mut high]: [f64; 2],
+        drivers: impl Fn(f64) -> Result<Drivers, Fault>,
         advance: &Advance,
     ) -> Result<f64, Fault> {
-        let [mut low, mut high] = self.range();
         for _ in 0..STEPS {
             let middle = 0.5 * (low + high);
-            let drivers = self.drives(drivers, middle)?;
+            let drivers = drivers(middle)?;
             let mut tally = Tally::default();
             for seed in 1..=ROLLOUTS {
-                for (stage, scope) in stages {
+                for (stage, scope) in self.stages {
                     tally.add(&stage.rollout(&drivers, seed)?.recording, scope)?;
                 }
                 advance.by_one();
             }
-            if tally.rate().unwrap_or(0.0) > rate { low = middle } else { high = middle }
+            if tally.rate().unwrap_or(0.0) > self.per_km { low = middle } else { high = middle }
         }
         Ok(0.5 * (low + high))
     }
