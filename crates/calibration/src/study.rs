@@ -110,6 +110,11 @@ impl PriorWeights {
 }
 
 impl Study {
+    /// The same, but the thresholds with which drivers drive are more `by` this, in units of the choice noise.
+    pub fn with_thresholds_moved(self, by: f64) -> Study {
+        Study { mean_place: self.mean_place - by, ..self }
+    }
+
     /// Fits a style to `observations`, and compares its model with others.
     pub fn of(observations: &Observations, asked: &Asked) -> Study {
         let study = Study::alone(observations, asked);

@@ -11,7 +11,9 @@ use laneweave::folder::{FIT, FIT_REPORT};
 use laneweave::models::Reading as Formulas;
 use laneweave::output::write_whole;
 use laneweave_calibration::Classes;
-use laneweave_studies::fit::{FIGURES, FITTED, FitReport, Request, Rollouts, figures, page};
+use laneweave_studies::fit::{
+    FIGURES, FITTED, FitReport, Judged, Observed, Request, Rollouts, figures, page,
+};
 
 use super::check::{Reading, json};
 use super::numbers::{number, seed};
@@ -94,6 +96,21 @@ fn formulas() -> impl TypedValueParser<Value = Formulas> {
         .map(|it| if it == "literal" { Formulas::Literal } else { Formulas::Repaired })
 }
 
+/// A fit to the first two thirds, judged by so many rollouts; `None`, with a warning, if the recordings are too short.
+fn judged(observed: &Observed, count: u32) -> Result<Option<Judged>, Fault> {
+    let threads = available_parallelism().map_or(1, NonZero::get);
+    let shown = ShareDone::of("simulations");
+    let judged = observed.judge(&Rollouts { count, threads }, &|share| shown.show(share))?;
+    shown.clear();
+    if judged.is_none() {
+        eprintln!(
+            "warning: the recordings are too short to be simulated: at least 60 s are needed before and after two thirds of \
+             their time"
+        );
+    }
+    Ok(judged)
+}
+
 impl FitArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         self.check_lead()?;
@@ -103,19 +120,8 @@ impl FitArguments {
             let plan = observed.plan();
             return say(&if self.json { json(&plan)? } else { plan.to_text() });
         }
-        let mut report = observed.fit()?;
-        if let Some(count) = self.judge {
-            let threads = available_parallelism().map_or(1, NonZero::get);
-            let shown = ShareDone::of("simulations");
-            report.judged = observed.judge(&Rollouts { count, threads }, &|share| shown.show(share))?;
-            shown.clear();
-            if report.judged.is_none() {
-                eprintln!(
-                    "warning: the recordings are too short to be simulated: at least 60 s are needed before and after two \
-                     thirds of their time"
-                );
-            }
-        }
+        let judged = self.judge.map(|count| judged(&observed, count)).transpose()?.flatten();
+        let report = observed.fit_beside(judged)?;
         self.write(&report)?;
         if self.json {
             return say(&json(&report)?);

@@ -222,11 +222,21 @@ impl Observed {
     /// # Errors
     /// If no lane change can be used.
     pub fn fit(&self) -> Result<FitReport, Fault> {
+        self.fit_beside(None)
+    }
+
+    /// The same, with what was found by [`Observed::judge`]: θ of the styles is moved as there.
+    ///
+    /// # Errors
+    /// If no lane change can be used.
+    pub fn fit_beside(&self, judged: Option<Judged>) -> Result<FitReport, Fault> {
         self.check_changes()?;
         let asked = self.asked();
         let (study, correction) = self.corrected(Study::of(&self.observations, &asked), &asked)?;
-        let mut report = FitReport::of(self, &study)?;
+        let moved_by = judged.as_ref().map_or(0.0, |it| it.theta_moved_by);
+        let mut report = FitReport::of(self, &study.with_thresholds_moved(moved_by))?;
         report.correction = correction;
+        report.judged = judged;
         if self.request.by_paper {
             report.by_paper =
                 by_paper(&self.observations, self.request.seed).iter().map(ByPaper::of).collect();

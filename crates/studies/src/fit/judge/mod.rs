@@ -54,12 +54,16 @@ pub struct Rollouts {
 
 /// Rollouts with the same draw of the parameters: so their spread is chance.
 const SAME_DRAW: usize = 2;
+/// Between these θ of the fitted drivers is moved, in units of the choice noise (ours).
+const MOVED: [f64; 2] = [-4.0, 4.0];
 /// A lane on which vehicles drive less than this share of the distance has no row of its own.
 const RARE: f64 = 0.02;
 
 impl Observed {
     /// Fits a style to the first two thirds of the recorded time, and simulates the last third with it; `None` if the
-    /// recordings are too short to be simulated. `show` is told what share of the simulations is done, from 0 to 1.
+    /// recordings are too short to be simulated. θ is moved until its drivers change lanes as often as recorded in the
+    /// time before, as a number of each other model is: what a driver wants in a second does not say how often
+    /// simulated drivers get it. `show` is told what share of the simulations is done, from 0 to 1.
     ///
     /// # Errors
     /// If a style cannot be fitted to the first two thirds, or the place cannot be simulated.
@@ -81,14 +85,13 @@ impl Observed {
         let before = self.stages(&split.before, &fitted)?;
         let rate = Rate { stages: &before.stages, per_km: before.recorded.rate().unwrap_or(0.0) };
         let moved = |by: f64| {
-            let study = Study { mean_place: study.mean_place - by, ..study.clone() };
+            let study = study.clone().with_thresholds_moved(by);
             let (_, styles) = styles(&observed, &study, &report)?;
             let shares = report.classes.iter().map(|it| it.share);
             Ok(Drivers { styles: styles.into_iter().map(|it| it.text).zip(shares).collect(), draw: None })
         };
-        let by = rate.reached([-4.0, 4.0], moved, &advance)?;
-        eprintln!("theta moved by {by}");
-        let drivers = [moved(by)?, default];
+        let theta_moved_by = rate.reached(MOVED, moved, &advance)?;
+        let drivers = [moved(theta_moved_by)?, default];
         let models = Contestant::all(drivers, &rate, (rollouts.threads, &advance))?;
         let (third, judged) = self.stages(&split.after, &fitted)?.judged(&models, rollouts, &advance)?;
         let (snapshots, _) = self.stages(&split.snapshots, &fitted)?.judged(&models, rollouts, &advance)?;
@@ -97,6 +100,7 @@ impl Observed {
             simulated_s: third.simulated_s,
             events_used: observed.observations.used().count(),
             events: third.events,
+            theta_moved_by,
             rollouts: rollouts.count as usize,
             models: judged,
             measures: third.measures,

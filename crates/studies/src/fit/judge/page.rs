@@ -20,12 +20,22 @@ const SHOWN: [(&str, &str); 8] = [
 
 /// The section of the report.
 pub(in crate::fit) fn section(judged: &Judged) -> Section {
-    let Judged { fitted_s, simulated_s, events_used, events, rollouts, measures, snapshots, .. } = judged;
+    let Judged {
+        fitted_s,
+        simulated_s,
+        events_used,
+        events,
+        rollouts,
+        measures,
+        snapshots,
+        theta_moved_by,
+        ..
+    } = judged;
     Section::new("world", "In the world")
         .text(format!(
             "A style is fitted to the first two thirds of the recorded time, {fitted_s:.0} s with {events_used} lane changes. In the last \
              third, {simulated_s:.0} s with {events} lane changes, vehicles come when, where and as fast as they came, and drive on as \
-             drivers of that style: {rollouts} rollouts, each pair with another draw of the parameters. Where the view ends they are no \
+             drivers of that style, whose θ is moved by {theta_moved_by:.2}: {rollouts} rollouts, each pair with another draw of the parameters. Where the view ends they are no \
              faster than 85 % of traffic was there in that minute. A drone sees them with errors of 10 cm. Lane changes count that began in view. \
              Where vehicles go is drawn from those who went before. Vehicles that were first seen in the middle of the view do not come: \
              recordings lose vehicles, and find them again under another number."
@@ -42,8 +52,8 @@ pub(in crate::fit) fn section(judged: &Judged) -> Section {
         .table(scored("Scores of the last third", measures, judged))
         .table(scored("Scores of the rollouts from snapshots", &snapshots.measures, judged))
         .text(
-            "Three models have the style's car-following and one number that is fitted to the rate of lane changes in the ten minutes \
-             before: a constant chance its threshold, MOBIL its threshold, LMRS its gain of speed. The default is the built-in style from \
+            "Each model has one number that is fitted to the rate of lane changes in the ten minutes before: the style and a constant \
+             chance their thresholds, MOBIL its threshold, LMRS its gain of speed. These three models have the style's car-following. The default is the built-in style from \
              which the fit began, with its own car-following. A score is the less, the better: the continuous ranked probability score in \
              the unit of the measure, and for counts the negative logarithm of the likelihood of the recorded count.",
         )

@@ -17,6 +17,9 @@ pub struct Judged {
     pub events_used: usize,
     /// Lane changes that were recorded while it was simulated.
     pub events: u32,
+    /// By how much θ of the fitted style was moved, so that its drivers change lanes as often as recorded in the ten
+    /// minutes before, in units of the choice noise.
+    pub theta_moved_by: f64,
     /// Rollouts of each model.
     pub rollouts: usize,
     /// The models: the fitted style first.

@@ -42,6 +42,11 @@ impl Judged {
             "in which {} lane changes were recorded; {} rollouts of each model, * not as recorded",
             self.events, self.rollouts
         )?;
+        writeln!(
+            out,
+            "theta is moved by {:.2}, so that the style changes lanes as often as recorded before",
+            self.theta_moved_by
+        )?;
         self.write_measures(out, &self.measures)?;
         for (number, it) in self.models.iter().enumerate().skip(1) {
             writeln!(out, "{} differs from the fitted style in: {}", it.model, self.differences(number))?;
