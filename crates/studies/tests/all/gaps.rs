@@ -94,8 +94,8 @@ fn fitted(recordings: u64, seconds: f64, first: u64) -> GapFit {
     GapFit::of(&wishes, &style, &FOLDS).expect("many drivers change lanes")
 }
 
-/// The share that is fitted lies beside the true one by at most this. A closer fit (.05) is not reached: drivers seem to
-/// accept shorter gaps than they do.
+/// The share that is fitted lies beside the true one by at most this. A closer fit (.05) is not reached: drivers seem
+/// to accept shorter gaps than they do.
 const NEAR: f64 = 0.1;
 
 #[test]
