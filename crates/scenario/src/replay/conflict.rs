@@ -106,8 +106,8 @@ impl Moving {
         Moving { id, speed: movement.speed, movement, ways, places, keeps_lane: false }
     }
 
-    /// The same vehicle, of whose path the next `known` [m] are known: where it is after a way along it. Beyond, it goes
-    /// on in the direction in which it moves.
+    /// The same vehicle, of whose path the next `known` [m] are known: where it is after a way along it. Beyond, it
+    /// goes on in the direction in which it moves.
     pub(super) fn on_path(mut self, known: f64, pose: impl Fn(f64) -> Pose) -> Moving {
         let end = pose(known);
         for (place, way) in self.places.iter_mut().zip(self.ways) {

@@ -75,8 +75,8 @@ impl Player {
         })
     }
 
-    /// The recorded vehicles in whose way somebody is who is not where the recording has him heed him from now on. Those
-    /// that are back at their records, and have nobody in their way, are theirs again.
+    /// The recorded vehicles in whose way somebody is who is not where the recording has him heed him from now on.
+    /// Those that are back at their records, and have nobody in their way, are theirs again.
     pub(super) fn heed(&self, playback: &mut Playback, world: &World) {
         if is_as_recorded(playback, world) {
             return;
@@ -141,8 +141,8 @@ impl Player {
         others.elsewhere.iter().find(|it| it.id != own.id && own.touches(it).is_some()).map(|it| it.id)
     }
 
-    /// The vehicles that heed somebody, or are handed over, drive on by a step. Those that fall back behind their records
-    /// are handed over.
+    /// The vehicles that heed somebody, or are handed over, drive on by a step. Those that fall back behind their
+    /// records are handed over.
     pub(super) fn advance_courses(&self, playback: &mut Playback, world: &World) {
         if playback.parts.iter().all(|it| it.course.is_none()) {
             return;

@@ -1,5 +1,5 @@
-//! Accelerations because of the lane beside: a driver who waits for a gap falls in with it, and who may not pass a slower
-//! vehicle in the overtaking lane stays behind that.
+//! Accelerations because of the lane beside: a driver who waits for a gap falls in with it, and who may not pass a
+//! slower vehicle in the overtaking lane stays behind that.
 
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 

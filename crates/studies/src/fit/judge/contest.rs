@@ -22,8 +22,8 @@ pub(super) struct Contestant {
 }
 
 impl Contestant {
-    /// All of them: the fitted drivers first, then the rivals, whose numbers are fitted to the rate of lane changes that
-    /// was `recorded`, and last the drivers of a built-in style as they are.
+    /// All of them: the fitted drivers first, then the rivals, whose numbers are fitted to the `recorded` rate of lane
+    /// changes, and last the drivers of a built-in style as they are.
     ///
     /// # Errors
     /// If a simulation cannot run.
