@@ -71,29 +71,49 @@ pub enum JoinError {
     },
 }
 
+/// Recordings that continue one another, of several that were given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// The whole.
+    pub joined: Joined,
+    /// The numbers of its recordings, from 1 on, in their order.
+    pub numbers: Vec<usize>,
+    /// Why it continues none of the recordings of the first series; none for that.
+    pub apart: Option<JoinError>,
+}
+
+/// Joins recordings as far as they continue one another, in any order. One that continues none of the others is a
+/// series of its own.
+pub fn series(parts: Vec<Recording>) -> Vec<Series> {
+    let mut left: Vec<(usize, Recording)> = (1..).zip(parts).collect();
+    let mut all: Vec<Series> = Vec::new();
+    let mut apart: HashMap<usize, JoinError> = HashMap::new();
+    while !left.is_empty() {
+        let (first, part) = left.remove(0);
+        let mut whole = Whole::of(part, first);
+        while let Some((at, offset)) = whole.next(&left) {
+            let (number, part) = left.remove(at);
+            whole.add(part, number, offset);
+        }
+        if all.is_empty() {
+            let refused =
+                |(number, it): &(usize, Recording)| Some((*number, whole.fit_of(it, *number).err()?));
+            apart.extend(left.iter().filter_map(refused));
+        }
+        let (joined, numbers) = whole.finish();
+        all.push(Series { joined, numbers, apart: apart.remove(&first) });
+    }
+    all
+}
+
 /// Joins recordings that continue one another, in any order.
 ///
 /// # Errors
 /// If one has another frame rate, or continues none of the others.
 pub fn join(parts: Vec<Recording>) -> Result<Joined, JoinError> {
-    let step = parts.first().ok_or(JoinError::Nothing)?.step;
-    let mut left: Vec<(usize, Recording)> = (1..).zip(parts).collect();
-    if let Some((number, part)) = left.iter().find(|(_, it)| (it.step - step).abs() > 1e-6) {
-        return Err(JoinError::Step { number: *number, found: part.step, expected: step });
-    }
-    let mut whole = Whole::of(left.remove(0).1);
-    while !left.is_empty() {
-        let fits: Vec<_> = left.iter().map(|(number, it)| whole.fit_of(it, *number)).collect();
-        let nearest = fits.iter().enumerate().filter_map(|(at, it)| Some((at, it.as_ref().ok()?)));
-        let nearest = nearest.min_by(|a, b| a.1.missing.total_cmp(&b.1.missing));
-        let Some((at, Fit { offset, .. })) = nearest.map(|(at, it)| (at, *it)) else {
-            let refused = fits.into_iter().find_map(Result::err);
-            return Err(refused.unwrap_or(JoinError::Nothing));
-        };
-        let (number, part) = left.remove(at);
-        whole.add(part, number, offset);
-    }
-    Ok(whole.finish())
+    let mut all = series(parts);
+    let apart = all.iter_mut().find_map(|it| it.apart.take());
+    apart.map_or_else(|| all.pop().map(|it| it.joined).ok_or(JoinError::Nothing), Err)
 }
 
 /// What was joined so far.
@@ -124,10 +144,18 @@ struct Pair<'a> {
 }
 
 impl Whole {
-    fn of(first: Recording) -> Whole {
+    fn of(first: Recording, number: usize) -> Whole {
         let by_id = first.tracks.iter().enumerate().map(|(index, it)| (it.id, index)).collect();
         let Recording { step, tracks } = first;
-        Whole { step, tracks, by_id, offsets: vec![(1, 0)], continued: 0, renamed: 0 }
+        Whole { step, tracks, by_id, offsets: vec![(number, 0)], continued: 0, renamed: 0 }
+    }
+
+    /// Which of `left` continues it with the least time between, and where it belongs.
+    fn next(&self, left: &[(usize, Recording)]) -> Option<(usize, i64)> {
+        let fits = left.iter().map(|(number, it)| self.fit_of(it, *number)).enumerate();
+        let nearest = fits.filter_map(|(at, it)| Some((at, it.ok()?)));
+        let nearest = nearest.min_by(|a, b| a.1.missing.total_cmp(&b.1.missing));
+        nearest.map(|(at, it)| (at, it.offset))
     }
 
     /// The vehicles of `part` whose ids are known.
@@ -141,6 +169,9 @@ impl Whole {
 
     /// Where `part` belongs.
     fn fit_of(&self, part: &Recording, number: usize) -> Result<Fit, JoinError> {
+        if (part.step - self.step).abs() > 1e-6 {
+            return Err(JoinError::Step { number, found: part.step, expected: self.step });
+        }
         let pairs = self.pairs(part);
         let agreeing = |offset: i64| pairs.iter().filter(|it| it.fits(offset, self.step)).count();
         // Frames that are counted on are those that the dataset means, if vehicles agree.
@@ -201,11 +232,12 @@ impl Whole {
         self.offsets.push((number, offset));
     }
 
-    fn finish(self) -> Joined {
+    /// The whole, and the numbers of its recordings.
+    fn finish(self) -> (Joined, Vec<usize>) {
         let Whole { step, tracks, mut offsets, continued, renamed, .. } = self;
         offsets.sort_unstable();
-        let offsets = offsets.into_iter().map(|it| it.1).collect();
-        Joined { recording: Recording { step, tracks }, offsets, continued, renamed }
+        let (numbers, offsets) = offsets.into_iter().unzip();
+        (Joined { recording: Recording { step, tracks }, offsets, continued, renamed }, numbers)
     }
 }
 

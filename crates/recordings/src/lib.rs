@@ -31,7 +31,7 @@ pub use clean::{CleaningReport, Example, Finding, clean};
 pub use cut_ins::{CutIn, cut_ins};
 pub use error::RecordingError;
 pub use file::open;
-pub use join::{JoinError, Joined, join};
+pub use join::{JoinError, Joined, Series, join, series};
 pub use lanes::{Foot, foot};
 pub use matching::{Matched, Place, Present};
 pub use recording::{Recording, RoadUser, State, Track};

@@ -10,6 +10,7 @@ pub mod scenario;
 mod script;
 mod source;
 pub mod style;
+mod windows;
 
 pub use capacity::{Bottleneck, Capacity, Estimate};
 pub use fault::{Fault, FaultKind, did_you_mean};
@@ -18,3 +19,4 @@ pub use remarks::{Remark, remarks};
 pub use replay::{AtItsEnd, Departures, HandOver, Played, Player, Recorded, Start};
 pub use script::{COMMAND_COLUMNS, Script, Written, refused};
 pub use source::Source;
+pub use windows::{Named, Windows, joined, open_windows};

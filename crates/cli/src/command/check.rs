@@ -7,7 +7,7 @@ use clap::{Args, ValueHint};
 use laneweave::maps::{FileKind, Size};
 use laneweave::output::write_whole;
 use laneweave::scenario::{Law, MapOptions, open_map};
-use laneweave::{Fault, open_recordings};
+use laneweave::{Fault, Windows, open_windows};
 use laneweave_studies::check::{
     GraphJson, Named, RecordingReport, Report, SetReport, explorer, picture, tracks,
 };
@@ -174,9 +174,10 @@ impl CheckArguments {
     }
 
     fn recording(&self, map: &Path) -> Result<(), Fault> {
-        let (recording, problems) = open_recordings(&self.files, self.columns.as_deref())?;
+        let Windows { recording, problems, notes, .. } = open_windows(&self.files, self.columns.as_deref())?;
         let map = open_map(map, &self.options.options())?;
-        let report = RecordingReport::of(recording, &problems, &map.network);
+        let mut report = RecordingReport::of(recording, &problems, &map.network);
+        report.windows = notes;
         say(&if self.json { json(&report)? } else { report.to_text() })
     }
 }

@@ -116,6 +116,7 @@ impl FitArguments {
         self.check_lead()?;
         self.check_position_error()?;
         let observed = self.request().observe()?;
+        observed.problems().iter().for_each(|it| eprintln!("warning: {it}"));
         if self.plan {
             let plan = observed.plan();
             return say(&if self.json { json(&plan)? } else { plan.to_text() });

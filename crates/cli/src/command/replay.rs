@@ -149,7 +149,8 @@ impl ReplayArguments {
             ("map_options.max_size_mb", "--max-map-size"),
         ];
         options.iter().for_each(|(key, option)| origin.replaced(key, option));
-        let mut scenario = scenario(map, replay)?;
+        let (mut scenario, notes) = scenario(map, replay)?;
+        notes.iter().for_each(|it| eprintln!("note: {it}"));
         scenario.map_options = MapOptions { joins_ends: true, ..self.options.options() };
         scenario.run.seed = self.seed;
         scenario.output.dir.clone_from(&self.out);

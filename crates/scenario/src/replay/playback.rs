@@ -85,7 +85,7 @@ impl Playback {
     pub(super) fn is_on_record(&self, id: VehicleId, world: &World) -> bool {
         let part = self.parts.iter().find(|it| it.vehicle == Some(id));
         let is_on_its_path = || world.vehicle(id).is_some_and(|it| it.is_on_its_own_path());
-        part.is_some_and(|it| it.course.is_none()) && is_on_its_path()
+        part.is_some_and(|it| !it.is_handed_over()) && is_on_its_path()
     }
 
     /// Number of parts.

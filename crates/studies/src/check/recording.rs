@@ -25,6 +25,8 @@ const LISTED: usize = 20;
 /// The report on a recording. Fields are added, never renamed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordingReport {
+    /// Of several files, what was joined, what was not and why, and what is left out.
+    pub windows: Vec<String>,
     /// Time between frames [s].
     pub step_s: f64,
     /// From the first frame to the last [s].
@@ -134,6 +136,7 @@ impl RecordingReport {
         let elsewhere = (2 * unmatched > states).then(|| elsewhere(&recording, network));
         let span = recording.frames().map_or(0, |(first, last)| last - first);
         RecordingReport {
+            windows: Vec::new(),
             step_s: recording.step,
             duration_s: span as f64 * recording.step,
             tracks,
@@ -163,6 +166,9 @@ impl RecordingReport {
     fn write_to(&self, out: &mut String) -> std::fmt::Result {
         let tracks: Vec<String> =
             self.tracks.iter().map(|(class, count)| format!("{count} {class}")).collect();
+        for it in &self.windows {
+            writeln!(out, "{it}")?;
+        }
         writeln!(out, "{:.1} s, a frame every {} s: {}", self.duration_s, self.step_s, tracks.join(", "))?;
         writeln!(
             out,

@@ -56,7 +56,7 @@ impl Observed {
         let drone = drone(more, self.request.seed.wrapping_add(seed));
         let err = |it: &Part| {
             let drone = Drone { frames_per_second: 1.0 / it.recording.step, ..drone };
-            Part { recording: clean(drone.observe(&it.recording)).0, site: it.site }
+            Part { name: it.name.clone(), recording: clean(drone.observe(&it.recording)).0, site: it.site }
         };
         let parts = self.sources.parts.iter().map(err).collect();
         let maps = self.sources.sites.iter().map(|it| it.map.clone()).collect();

@@ -20,6 +20,8 @@ pub struct Plan {
     pub recordings: usize,
     /// Number of different maps.
     pub sites: usize,
+    /// Of several files, what was joined, what was not and why, and what is left out.
+    pub windows: Vec<String>,
     /// Distance that vehicles drove [veh·km].
     pub veh_km: f64,
     /// Time for which they were seen [veh·h].
@@ -97,6 +99,7 @@ impl Plan {
             drivers,
             recordings: observations.recordings.len(),
             sites: observations.sites as usize,
+            windows: observed.sources.windows.clone(),
             veh_km: thousandths(observations.veh_km),
             veh_h: thousandths(observations.veh_h),
             events: changes.len(),
@@ -127,6 +130,9 @@ impl Plan {
             self.veh_km,
             self.veh_h
         )?;
+        for it in &self.windows {
+            writeln!(out, "{it}")?;
+        }
         writeln!(
             out,
             "{} drivers could change lanes in {} seconds; {:.0} % of them show their desired speed",

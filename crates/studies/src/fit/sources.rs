@@ -9,9 +9,9 @@ use laneweave_calibration::observe::{Begin, Observations, Options, Origin, obser
 use laneweave_maps::FileKind;
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_recordings::{Matched, Recording, clean, cut_ins, join, lane_changes};
+use laneweave_recordings::{Matched, Recording, clean, cut_ins, lane_changes};
 use laneweave_scenario::scenario::{MapOptions, open_map};
-use laneweave_scenario::{Fault, elsewhere, open_recording};
+use laneweave_scenario::{Fault, Named, elsewhere, joined, open_recording};
 
 use super::Request;
 
@@ -21,6 +21,8 @@ pub(super) struct Sources {
     pub(super) sites: Vec<Site>,
     /// The recordings, in the order in which they were given.
     pub(super) parts: Vec<Part>,
+    /// What was joined, what was not, and what is left out.
+    pub(super) windows: Vec<String>,
     /// Problems in reading the recordings.
     pub(super) problems: Vec<String>,
 }
@@ -50,6 +52,8 @@ pub(super) struct SiteMap {
 /// A recording with its map.
 #[derive(Clone)]
 pub(super) struct Part {
+    /// The name of its file, or of its files.
+    pub(super) name: String,
     pub(super) recording: Recording,
     /// The number of its site.
     pub(super) site: usize,
@@ -59,15 +63,26 @@ impl Sources {
     /// Reads the recordings and their maps.
     ///
     /// # Errors
-    /// If a file cannot be read, or a recording lies outside its map.
+    /// If a file cannot be read, or all recordings lie outside their maps.
     pub(super) fn read(request: &Request) -> Result<Sources, Fault> {
-        let mut problems = Vec::new();
-        let (maps, parts) = request.read(&mut problems)?;
-        let sources = Sources { problems, ..Sources::of(maps, parts) };
-        for part in &sources.parts {
-            request.refuse_elsewhere(&sources.matched(part))?;
+        let (mut problems, mut windows) = (Vec::new(), Vec::new());
+        let (maps, parts) = request.read(&mut problems, &mut windows)?;
+        let sources = Sources::of(maps, parts);
+        let refused = |part: &Part| request.refuse_elsewhere(&sources.matched(part)).err();
+        let mut faults: Vec<Option<Fault>> = sources.parts.iter().map(refused).collect();
+        if faults.iter().all(Option::is_none) {
+            return Ok(Sources { windows, problems, ..sources });
         }
-        Ok(sources)
+        if faults.iter().all(Option::is_some)
+            && let Some(fault) = faults.swap_remove(0)
+        {
+            return Err(fault);
+        }
+        let named = sources.parts.iter().zip(&faults).filter_map(|(part, it)| Some((part, it.as_ref()?)));
+        windows.extend(named.map(|(part, fault)| format!("{} is left out: {}", part.name, fault.what)));
+        let maps = sources.sites.iter().map(|it| it.map.clone()).collect();
+        let kept = sources.parts.into_iter().zip(faults).filter(|it| it.1.is_none()).map(|it| it.0);
+        Ok(Sources { windows, problems, ..Sources::of(maps, kept.collect()) })
     }
 
     /// Recordings with the maps of their sites.
@@ -78,7 +93,7 @@ impl Sources {
             Site { navigator: Navigator::new(&network), map, permitted, network }
         };
         let sites = maps.into_iter().enumerate().map(site).collect();
-        Sources { sites, parts, problems: Vec::new() }
+        Sources { sites, parts, windows: Vec::new(), problems: Vec::new() }
     }
 
     /// Recorded time [s].
@@ -133,25 +148,35 @@ impl Sources {
 
 impl Request {
     /// The maps, and the recordings that belong to them: recordings that continue one another are one.
-    fn read(&self, problems: &mut Vec<String>) -> Result<(Vec<SiteMap>, Vec<Part>), Fault> {
+    fn read(
+        &self,
+        problems: &mut Vec<String>,
+        windows: &mut Vec<String>,
+    ) -> Result<(Vec<SiteMap>, Vec<Part>), Fault> {
         let mut recordings = Vec::with_capacity(self.recordings.len());
         for path in &self.recordings {
             let (recording, found) = open_recording(path, self.columns.as_deref())?;
-            problems
-                .extend(found.iter().map(|it| format!("{}: {}: {}", path.display(), it.element, it.what)));
-            recordings.push(recording);
+            let name = path.display().to_string();
+            problems.extend(found.iter().map(|it| format!("{name}: {}: {}", it.element, it.what)));
+            recordings.push((name, recording));
         }
-        let Some(map) = &self.map else { return self.read_with_own_maps(recordings) };
-        let map = self.site_map(map)?;
-        let joined = if recordings.len() > 1 { join(recordings.clone()).ok() } else { None };
-        let recordings = joined.map_or(recordings, |it| vec![it.recording]);
-        let parts = recordings.into_iter().map(|it| Part { recording: clean(it).0, site: 0 });
-        Ok((vec![map], parts.collect()))
+        let (maps, by_site) = match &self.map {
+            Some(map) => (vec![self.site_map(map)?], vec![recordings]),
+            None => self.with_own_maps(recordings)?,
+        };
+        let mut parts = Vec::new();
+        for (site, recordings) in by_site.into_iter().enumerate() {
+            let (recordings, notes) = joined(recordings);
+            windows.extend(notes);
+            let part = |(name, it)| Part { name, recording: clean(it).0, site };
+            parts.extend(recordings.into_iter().map(part));
+        }
+        Ok((maps, parts))
     }
 
     /// CommonRoad files contain their maps. Those with the same lanelets are one site.
-    fn read_with_own_maps(&self, recordings: Vec<Recording>) -> Result<(Vec<SiteMap>, Vec<Part>), Fault> {
-        let (mut sites, mut parts): (Vec<SiteMap>, Vec<Part>) = (Vec::new(), Vec::new());
+    fn with_own_maps(&self, recordings: Vec<Named>) -> Result<(Vec<SiteMap>, Vec<Vec<Named>>), Fault> {
+        let (mut sites, mut by_site): (Vec<SiteMap>, Vec<Vec<Named>>) = (Vec::new(), Vec::new());
         for (path, recording) in self.recordings.iter().zip(recordings) {
             if !FileKind::of(path).has_tracks() {
                 let what = "a recording needs the map of its location";
@@ -167,10 +192,11 @@ impl Request {
             let site = sites.iter().position(is_same).unwrap_or(sites.len());
             if site == sites.len() {
                 sites.push(map);
+                by_site.push(Vec::new());
             }
-            parts.push(Part { recording: clean(recording).0, site });
+            by_site[site].push(recording);
         }
-        Ok((sites, parts))
+        Ok((sites, by_site))
     }
 
     /// The map at `path`, in which lanelets that meet at their ends continue one another: what drove there shows that

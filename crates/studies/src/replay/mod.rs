@@ -21,7 +21,7 @@ use std::sync::Arc;
 use laneweave_network::Network;
 use laneweave_scenario::scenario::{Origin, Replay, Scenario};
 use laneweave_scenario::style::Model;
-use laneweave_scenario::{Fault, Played, Player, open_recordings};
+use laneweave_scenario::{Fault, Played, Player, Windows, open_windows};
 
 use crate::parallel::in_parallel;
 use collisions::CollisionWatch;
@@ -41,12 +41,13 @@ pub use report::{CollisionMeans, Difference, Driver, HandOvers, Matched, Mean, N
 const STEP: f64 = 0.1;
 
 /// The scenario that replays a recording on `map`, from its first frame to its last, with no other traffic. A step is
-/// as long as frames that are at most 0.1 s apart, or a whole part of the time between two frames.
+/// as long as frames that are at most 0.1 s apart, or a whole part of the time between two frames. Of several files those
+/// are replayed that hold the longest recording together; what became of the files is said in words.
 ///
 /// # Errors
-/// If the recording cannot be read, or has only one frame.
-pub fn scenario(map: PathBuf, replay: Replay) -> Result<Scenario, Fault> {
-    let (recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
+/// If a recording cannot be read, or has only one frame.
+pub fn scenario(map: PathBuf, replay: Replay) -> Result<(Scenario, Vec<String>), Fault> {
+    let Windows { recording, files, notes, .. } = open_windows(&replay.recording, replay.columns.as_deref())?;
     let (first, last) = recording.frames().unwrap_or_default();
     if first == last {
         let place = replay.recording.first().map_or(String::new(), |it| it.display().to_string());
@@ -59,8 +60,8 @@ pub fn scenario(map: PathBuf, replay: Replay) -> Result<Scenario, Fault> {
     scenario.run.duration_s = (last - first) as f64 * recording.step;
     scenario.output.record_s = (1.0 / scenario.run.step_s).round() * scenario.run.step_s;
     scenario.output.dir = "replay".into();
-    scenario.replay = replay;
-    Ok(scenario)
+    scenario.replay = Replay { recording: files, ..replay };
+    Ok((scenario, notes))
 }
 
 /// The step for a recording with so much time between its frames [s].

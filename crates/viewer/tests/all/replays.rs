@@ -23,7 +23,7 @@ fn recorded_vehicles_are_no_drivers_and_nobody_drives_them() {
     fs::write(&recording, rows).expect("a file");
     let replay = Replay { recording: vec![recording], reactive_ids: vec![2], ..Replay::default() };
     let map = laneweave_test_data::map("motorway_2_lanes.osm");
-    let scenario = replay::scenario(map, replay).expect("a scenario");
+    let scenario = replay::scenario(map, replay).expect("a scenario").0;
     let mut live = Live::new(&scenario, &Origin::default(), dir.clone()).expect("a simulation");
     (0..50).for_each(|_| live.step(&mut Vec::new()).expect("a step"));
     let mut snapshot = Snapshot::default();

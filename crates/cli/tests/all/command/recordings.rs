@@ -94,6 +94,35 @@ fn what_cannot_be_observed_or_joined_is_refused_with_a_remedy() {
 }
 
 #[test]
+fn a_window_that_continues_none_of_the_others_is_left_out_and_named() {
+    let folder = driven();
+    told(&folder, "observe out --until 30 --to a.csv");
+    told(&folder, "observe out --from 30.04 --to b.csv");
+    // The same vehicles half a kilometre beside.
+    let beside = |row: &str| {
+        let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+        if let Ok(y) = cells[5].parse::<f64>() {
+            cells[5] = (y + 500.0).to_string();
+        }
+        cells.join(",")
+    };
+    let bad: Vec<String> = folder.read("a.csv").lines().map(beside).collect();
+    fs::write(folder.path().join("bad.csv"), bad.join("\n") + "\n").expect("it can be written");
+    let states = |files: &str| {
+        let report = report(&folder, &format!("check {files}"));
+        (report["states"].clone(), report["windows"].to_string())
+    };
+    let (good, notes) = states("a.csv b.csv");
+    assert!(notes.contains("a.csv, b.csv are joined: ") && !notes.contains("left out"), "{notes}");
+    let (with_bad, notes) = states("bad.csv a.csv b.csv");
+    assert_eq!(with_bad, good);
+    assert!(notes.contains("bad.csv is left out: the others hold more"), "{notes}");
+    let run = folder.laneweave("replay a.csv bad.csv b.csv --map MAPS/ramps.osm --duration 1 --out replayed");
+    assert_eq!(run.code(), 0, "{}", run.errors());
+    assert!(run.errors().contains("bad.csv stays by itself: of "), "{}", run.errors());
+}
+
+#[test]
 fn commonroad_files_without_a_map_are_a_set_each_with_its_own() {
     let folder = Folder::new();
     let Some(data) = data("recordings/ngsim_commonroad") else { return };

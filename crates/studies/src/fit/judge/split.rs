@@ -59,7 +59,7 @@ impl Split {
             snapshots.extend(short_pieces(number, step, [cut, last]));
             if cut > first {
                 let recording = between(&part.recording, [first, cut]);
-                fitted.push(Part { recording, site: part.site });
+                fitted.push(Part { name: part.name.clone(), recording, site: part.site });
             }
         }
         let maps = sources.sites.iter().map(|it| it.map.clone()).collect();

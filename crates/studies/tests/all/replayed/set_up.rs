@@ -50,7 +50,7 @@ pub(crate) fn written(recording: &Recording) -> PathBuf {
 /// The replay of a recording, with this share of drivers.
 pub(crate) fn replayed(recording: PathBuf, map: PathBuf, reactive_share: f64) -> Scenario {
     let replay = Replay { recording: vec![recording], reactive_share, ..Replay::default() };
-    replay::scenario(map, replay).expect("it can be read")
+    replay::scenario(map, replay).expect("it can be read").0
 }
 
 pub(crate) fn ready(scenario: &Scenario) -> Simulation {
