@@ -41,8 +41,8 @@ pub use report::{CollisionMeans, Difference, Driver, HandOvers, Matched, Mean, N
 const STEP: f64 = 0.1;
 
 /// The scenario that replays a recording on `map`, from its first frame to its last, with no other traffic. A step is
-/// as long as frames that are at most 0.1 s apart, or a whole part of the time between two frames. Of several files those
-/// are replayed that hold the longest recording together; what became of the files is said in words.
+/// as long as frames that are at most 0.1 s apart, or a whole part of the time between two frames. Of several files
+/// those are replayed that hold the longest recording together; what became of the files is said in words.
 ///
 /// # Errors
 /// If a recording cannot be read, or has only one frame.
