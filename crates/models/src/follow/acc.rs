@@ -58,7 +58,7 @@ impl Acc {
 }
 
 /// a_CAH: the largest acceleration [m/s²] with which a driver at `speed` [m/s] does not hit `ahead`, if nobody changes
-/// its acceleration.
+/// its acceleration (Kesting, Treiber, Helbing 2010, Phil. Trans. R. Soc. A 368, 4585).
 pub fn constant_acceleration(speed: f64, ahead: Ahead) -> f64 {
     let (gap, leader) = (ahead.gap.max(Idm::SHORTEST), ahead.acceleration);
     let closing = speed - ahead.speed;

@@ -12,7 +12,6 @@ mod optimal_velocity;
 mod ovm;
 
 pub use acc::{Acc, constant_acceleration};
-
 pub use fvdm::Fvdm;
 pub use gfm::{Gfm, GfmForm};
 pub use gipps::Gipps;

@@ -27,6 +27,7 @@ const FOLLOWS: FollowingModel = FollowingModel::IdmPlus(IdmPlus {
     jam_gap: 2.0,
     exponent: 4.0,
 });
+/// Their comfortable braking [m/s²] (ours).
 const COMFORTABLE: f64 = 2.0;
 /// They desire so much more than their speed, so that a free road does not keep them from following [m/s] (ours).
 const HELD_UP: f64 = 10.0;
@@ -43,6 +44,7 @@ pub(super) struct Moving {
     pub(super) id: VehicleId,
     /// Speed [m/s].
     pub(super) speed: f64,
+    /// How it moves on.
     movement: Movement,
     /// Its way until each look [m].
     ways: [f64; LOOKS],

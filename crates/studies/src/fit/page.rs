@@ -226,8 +226,8 @@ fn following(report: &FitReport) -> Section {
     }
     section.table(numbers).text(following.own()).table(followed(report)).text(
         "Drivers are simulated through stretches of equal length in which they follow one leader, or nobody, behind the leader as \
-         recorded. Stretches are as long as enough drivers show. A number is identified if its standard error is at most half of the prior's and the likelihood falls significantly to \
-         half and to twice the estimate. A third of the drivers is held out in turn; of them only what came before a prediction is known.",
+         recorded. Stretches are as long as enough drivers show. A number is identified if its standard error is at most half of the \
+         prior's and the likelihood falls significantly to half and to twice the estimate. A third of the drivers is held out in turn; of them only what came before a prediction is known.",
     )
 }
 

@@ -58,8 +58,8 @@ fn as_recorded(report: &ReplayReport, network: &Network) -> Section {
     let section = Section::new("recorded", "How much is as recorded").text(
         "A recorded vehicle heeds somebody who is not where the recording has him when it would have to brake for him by 2 m/s² more \
          than its record, or when the two would touch within 3 s. It then goes on along its recorded path behind whoever is ahead. \
-         It is handed over as soon as it is more than .3 m behind its record, until it has caught up. A driver is compared with its record until somebody is handed over \
-         because of it. It is taken off the road when its record ends.",
+         It is handed over as soon as it is more than .3 m behind its record, until it has caught up. A driver is compared with its \
+         record until somebody is handed over because of it. It is taken off the road when its record ends.",
     );
     let columns = [
         ("model", Align::Words),

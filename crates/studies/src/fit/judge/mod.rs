@@ -77,20 +77,20 @@ impl Observed {
         observed.check_changes()?;
         let (study, _) = observed.corrected(Study::alone(&observed.observations, &asked), &asked)?;
         let report = FitReport::of(&observed, &study)?;
-        let shares = report.classes.iter().map(|it| it.share);
-        let texts = report.styles.iter().map(|it| it.text.clone());
-        let fitted = Drivers { styles: texts.zip(shares).collect(), draw: None };
+        let moved = |by: f64| {
+            let study = study.clone().with_thresholds_moved(by);
+            let (classes, styles) = styles(&observed, &study, &report)?;
+            let shares = classes.iter().map(|it| it.share);
+            Ok(Drivers { styles: styles.into_iter().map(|it| it.text).zip(shares).collect(), draw: None })
+        };
+        let fitted = moved(0.0)?;
         let default = Drivers { styles: vec![(self.request.prior_source()?.text, 1.0)], draw: None };
         let advance = Advance::of(Contestant::simulations(rollouts, 2), show);
         let before = self.stages(&split.before, &fitted)?;
         let rate = Rate { stages: &before.stages, per_km: before.recorded.rate().unwrap_or(0.0) };
-        let moved = |by: f64| {
-            let study = study.clone().with_thresholds_moved(by);
-            let (_, styles) = styles(&observed, &study, &report)?;
-            let shares = report.classes.iter().map(|it| it.share);
-            Ok(Drivers { styles: styles.into_iter().map(|it| it.text).zip(shares).collect(), draw: None })
-        };
-        let theta_moved_by = rate.reached(MOVED, moved, &advance)?;
+        // Where nobody changed lanes the rate does not tell θ.
+        let is_told = rate.per_km > 0.0;
+        let theta_moved_by = if is_told { rate.reached(MOVED, moved, &advance)? } else { 0.0 };
         let drivers = [moved(theta_moved_by)?, default];
         let models = Contestant::all(drivers, &rate, (rollouts.threads, &advance))?;
         let (third, judged) = self.stages(&split.after, &fitted)?.judged(&models, rollouts, &advance)?;

@@ -18,7 +18,7 @@ pub struct Judged {
     /// Lane changes that were recorded while it was simulated.
     pub events: u32,
     /// By how much θ of the fitted style was moved, so that its drivers change lanes as often as recorded in the ten
-    /// minutes before, in units of the choice noise.
+    /// minutes before, in units of the choice noise; 0 if nobody changed lanes then.
     pub theta_moved_by: f64,
     /// Rollouts of each model.
     pub rollouts: usize,
