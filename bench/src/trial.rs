@@ -54,7 +54,7 @@ impl Trial {
         let even = loaded(Vec::new())?;
         let [origins, destinations] =
             [even.origins().into_iter().map(|(id, _)| id).collect(), even.destinations()];
-        let mut rows = skewed(&origins, &destinations, &random);
+        let mut rows = skewed(&origins, &destinations, &|from, to| even.leads(from, to), &random);
         // A demand of one vehicle an hour in all shows the capacity for these shares.
         let load = 0.5 + 1.5 * draw(10);
         let all = load * loaded(rows.clone())?.capacity().veh_h;
@@ -89,8 +89,14 @@ fn map(number: u32, draw: &impl Fn(u32) -> f64) -> Result<(String, Map), Box<dyn
     Ok((name, grid(&drawn)?.build()?))
 }
 
-/// A demand of one vehicle an hour in all, of which some entrances and destinations have much more than others.
-fn skewed(origins: &[i64], destinations: &[i64], random: &Random) -> Vec<OdRow> {
+/// A demand of one vehicle an hour in all, of which some entrances and destinations have much more than others. Trips
+/// go where one `leads`.
+fn skewed(
+    origins: &[i64],
+    destinations: &[i64],
+    leads: &dyn Fn(i64, i64) -> bool,
+    random: &Random,
+) -> Vec<OdRow> {
     let weight = |subject: u32| {
         let draw = random.uniform(subject, Purpose::Destination, 0);
         0.1 + draw * draw
@@ -98,7 +104,7 @@ fn skewed(origins: &[i64], destinations: &[i64], random: &Random) -> Vec<OdRow> 
     let all: f64 = (0..origins.len()).map(|it| weight(it as u32)).sum();
     let mut rows = Vec::new();
     for (number, from) in origins.iter().enumerate() {
-        let to_others = |it: &usize| destinations[*it] != *from;
+        let to_others = |it: &usize| destinations[*it] != *from && leads(*from, destinations[*it]);
         let shares: Vec<(usize, f64)> = (0..destinations.len())
             .filter(to_others)
             .map(|it| (it, weight(1_000_000 + (1000 * (number % 3) + it) as u32)))
@@ -112,4 +118,17 @@ fn skewed(origins: &[i64], destinations: &[i64], random: &Random) -> Vec<OdRow> 
         }));
     }
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_town_and_a_grid_have_traffic_that_can_be_driven() {
+        for number in 0..2 {
+            let trial = Trial::new(number, 1, |it| it).expect("there are routes");
+            assert!(trial.simulation.origins().iter().any(|(_, rate)| *rate > 0.0), "{}", trial.map);
+        }
+    }
 }

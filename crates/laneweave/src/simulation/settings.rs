@@ -65,6 +65,14 @@ impl Simulation {
         self.world().demand().destinations.iter().map(Place::id).collect()
     }
 
+    /// Whether a trip can lead from one of the [`Simulation::origins`] to one of the [`Simulation::destinations`].
+    pub fn leads(&self, origin: i64, destination: i64) -> bool {
+        let [origins, destinations] = self.places();
+        let [from, to] = [(origins, origin), (destinations, destination)]
+            .map(|(places, id)| places.iter().position(|it| it.id() == id));
+        from.zip(to).is_some_and(|(from, to)| self.world().leads(from, to))
+    }
+
     /// The demand at an entrance now [veh/h]. `None` if there is no such entrance.
     pub fn demand_at(&self, origin: i64) -> Option<f64> {
         self.world().demand_at(origin)

@@ -15,12 +15,14 @@ mod readings;
 mod recovery;
 mod route_weights;
 mod seen;
+mod site_rates;
 mod styles;
 mod town_rates;
 mod traffic;
 
 pub use effort::Effort;
 pub use finding::{Finding, Row};
+pub use site_rates::site_rates;
 
 use laneweave::Fault;
 

@@ -36,7 +36,8 @@ use sources::Sources;
 
 pub use following::{FollowingNumber, FollowingPrediction, FollowingReport, Off};
 pub use gaps::{BrakingReport, CriticalGapReport, GapReport, GapScoreReport};
-pub use judge::{Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
+pub(crate) use judge::{AXES, InClass};
+pub use judge::{Design, Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
 #[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};
 pub use plan::{ExpectedWeight, Plan};

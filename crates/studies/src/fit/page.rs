@@ -6,7 +6,7 @@ use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
 use super::following::Off;
 use super::found::by_paper_terms;
 use super::gaps_page;
-use super::judge;
+use super::judge::{self, Judged};
 use super::prediction::HeldOut;
 use super::report::{FitReport, Spread};
 use super::words::{correction, told, with_interval};
@@ -66,12 +66,15 @@ pub fn page(report: &FitReport, recordings: &str, command: &str) -> Page {
 }
 
 /// The names of the figures as files.
-pub const FIGURES: [&str; 2] = ["prediction.svg", "world.svg"];
+pub const FIGURES: [&str; 3] = ["prediction.svg", "world.svg", "density.svg"];
 
-/// The figures of the report by the names of their files; the second one only if the fit was judged.
+/// The figures of the report by the names of their files; all but the first only if the fit was judged.
 pub fn figures(report: &FitReport) -> Vec<(&'static str, String)> {
     let mut figures = vec![(FIGURES[0], figure(report, Sheet::Page).drawn.svg)];
-    figures.extend(report.judged.as_ref().map(|it| (FIGURES[1], judge::figure(it, Sheet::Page).drawn.svg)));
+    let judged: [fn(&Judged, Sheet) -> Figure; 2] = [judge::figure, judge::density_figure];
+    for (name, draw) in FIGURES[1..].iter().zip(judged) {
+        figures.extend(report.judged.as_ref().map(|it| (*name, draw(it, Sheet::Page).drawn.svg)));
+    }
     figures
 }
 

@@ -126,7 +126,9 @@ fn the_fitted_style_drives_and_the_folder_has_nothing_else_that_looks_like_one()
     let mut names: Vec<String> =
         files.map(|it| it.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
     names.sort();
-    assert_eq!(names, ["fit.html", "fit.json", "fitted.toml", "prediction.svg", "world.svg"]);
+    let styles_and_figures =
+        ["density.svg", "fit.html", "fit.json", "fitted.toml", "prediction.svg", "world.svg"];
+    assert_eq!(names, styles_and_figures);
     let run = folder.laneweave(
         "run maps/motorway_2_lanes.osm --style fit/fitted.toml=1 --duration 20 --quiet --out again",
     );
@@ -148,6 +150,28 @@ fn the_tutorial_shows_what_its_commands_print_and_draw() {
     }
     for figure in ["prediction.svg", "world.svg"] {
         assert_golden(&Path::new(TUTORIAL).join(figure), &FITTED.folder.read(&format!("fit/{figure}")));
+    }
+}
+
+#[test]
+fn the_second_claim_is_measured_at_a_recorded_site() {
+    // It takes half a minute.
+    if !size().pick(false, true) {
+        return;
+    }
+    let run = FITTED
+        .folder
+        .laneweave("reproduce C2 --site tracks.csv --map maps/motorway_2_lanes.osm --seeds 1 --out claim");
+    assert_eq!(run.code(), 0, "{}", run.errors());
+    assert!(run.text().contains("follow the recorded rate"), "{}", run.text());
+    let rows = FITTED.folder.read("claim/C2_site.csv");
+    // Two designs, three classes of density, five models.
+    assert_eq!(rows.lines().count(), 1 + 2 * 3 * 5, "{rows}");
+    for figure in ["C2_site", "C2_site_snapshots"] {
+        assert!(
+            FITTED.folder.read(&format!("claim/{figure}.svg")).contains("Density of the lane"),
+            "{figure}"
+        );
     }
 }
 

@@ -9,6 +9,12 @@ fn what_is_asked_wrongly_is_refused_and_nothing_is_written() {
         ("C9", "invalid value 'C9' for '[EXPERIMENT]...'"),
         ("C1 --seeds 0", "invalid value '0' for '--seeds <N>'"),
         ("C1 --seeds many", "invalid value 'many' for '--seeds <N>'"),
+        ("C1 --map a.osm", "the following required arguments were not provided"),
+        (
+            "C1 --site a.csv --map a.osm",
+            "--site: only C2 is measured at a recorded site; write: laneweave reproduce C2",
+        ),
+        ("C2 --site a.csv --map a.osm", "a.csv"),
         ("C1 --quick --quick", "the argument '--quick' cannot be used multiple times"),
     ] {
         let run = folder.laneweave(&format!("reproduce {line}"));

@@ -77,6 +77,7 @@ impl Stages<'_> {
             simulations: self.stages.len(),
             simulated_s: self.seconds,
             events: self.recorded.changes(),
+            densities_veh_per_km: self.recorded.densities(),
             measures: measures(models, &self.recorded, &simulated),
         };
         let model = |(model, rollouts): (&Contestant, &Vec<(Tally, u64)>)| JudgedModel {

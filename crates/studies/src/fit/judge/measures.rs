@@ -3,7 +3,7 @@
 use laneweave_study::quantile;
 use laneweave_study::units::{KMH_PER_MPS, SECONDS_PER_HOUR};
 
-use super::tally::{CLASSES, Tally, rate};
+use super::tally::{CLASSES, OFFERED, Tally, rate};
 
 /// A measure with its value.
 pub(super) struct Measured {
@@ -37,6 +37,7 @@ pub(super) fn measured(tally: &Tally, thirds: [f64; CLASSES - 1], lanes: usize) 
     let mut all = rates(tally, lanes);
     all.extend(by_density(tally, thirds));
     all.extend(of_changes(tally));
+    all.extend(of_offered_gaps(tally));
     all.extend(of_cut_ins(tally));
     all.extend(of_motion(tally));
     all
@@ -97,6 +98,21 @@ fn of_changes(tally: &Tally) -> [Measured; 5] {
         Measured::of("lag_gap_m", "gap to the new follower, median [m]", half(&tally.gaps[1])),
         Measured::of("duration_s", "duration of a change, median [s]", half(&tally.durations)),
     ]
+}
+
+/// P(accept | gap): the share of the gaps of each length that drivers took, at a look each second in the ten seconds
+/// before they went. Who never changed lanes is not asked: whether it wanted to is not seen.
+fn of_offered_gaps(tally: &Tally) -> impl Iterator<Item = Measured> {
+    let [short, long] = OFFERED;
+    let names = [
+        ("short", format!("below {short:.0} m")),
+        ("middle", format!("of {short:.0} to {long:.0} m")),
+        ("long", format!("from {long:.0} m on")),
+    ];
+    let shares = tally.offered.map(|[offered, taken]| ratio(100.0 * f64::from(taken), f64::from(offered)));
+    names.into_iter().zip(shares).map(|((key, name), share)| {
+        Measured::of(&format!("accepted_{key}_pct"), &format!("gaps taken of those {name} [%]"), share)
+    })
 }
 
 /// How near followers are before whom lanes are changed: most of them are not, so that medians say little.

@@ -14,6 +14,7 @@
 
 mod advance;
 mod contest;
+mod density;
 mod measures;
 mod models;
 #[cfg(feature = "reports")]
@@ -38,10 +39,10 @@ use rollout::{Drivers, Stage};
 use split::{Piece, Split, between};
 use tally::{Scope, Tally};
 
+pub(crate) use density::{AXES, InClass};
 #[cfg(feature = "reports")]
-pub(super) use page::{figure, section};
-pub(super) use report::Design;
-pub use report::{Judged, JudgedMeasure, JudgedModel, Predicted};
+pub(super) use page::{density_figure, figure, section};
+pub use report::{Design, Judged, JudgedMeasure, JudgedModel, Predicted};
 
 /// How a fit is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,13 +98,11 @@ impl Observed {
         let (snapshots, _) = self.stages(&split.snapshots, &fitted)?.judged(&models, rollouts, &advance)?;
         Ok(Some(Judged {
             fitted_s: observed.sources.seconds(),
-            simulated_s: third.simulated_s,
             events_used: observed.observations.used().count(),
-            events: third.events,
             theta_moved_by,
             rollouts: rollouts.count as usize,
             models: judged,
-            measures: third.measures,
+            third,
             snapshots,
         }))
     }

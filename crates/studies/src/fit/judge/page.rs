@@ -1,10 +1,10 @@
 //! What a fit is worth in the world, in its report.
 
 use laneweave_results::report::{Align, Figure, Section, Table};
-use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars};
+use laneweave_study::{BarRow, Estimated, Interval, Sheet, bars, estimates};
 
 use super::report::{Score, scores};
-use super::{Judged, JudgedMeasure};
+use super::{AXES, Design, Judged, JudgedMeasure};
 
 /// The measures of the figure, with their names there.
 const SHOWN: [(&str, &str); 8] = [
@@ -20,17 +20,8 @@ const SHOWN: [(&str, &str); 8] = [
 
 /// The section of the report.
 pub(in crate::fit) fn section(judged: &Judged) -> Section {
-    let Judged {
-        fitted_s,
-        simulated_s,
-        events_used,
-        events,
-        rollouts,
-        measures,
-        snapshots,
-        theta_moved_by,
-        ..
-    } = judged;
+    let Judged { fitted_s, events_used, rollouts, third, snapshots, theta_moved_by, .. } = judged;
+    let Design { simulated_s, events, measures, .. } = third;
     Section::new("world", "In the world")
         .text(format!(
             "A style is fitted to the first two thirds of the recorded time, {fitted_s:.0} s with {events_used} lane changes. In the last \
@@ -40,7 +31,7 @@ pub(in crate::fit) fn section(judged: &Judged) -> Section {
              Where vehicles go is drawn from those who went before. Vehicles that were first seen in the middle of the view do not come: \
              recordings lose vehicles, and find them again under another number."
         ))
-        .figures(vec![figure(judged, Sheet::Column)])
+        .figures(vec![figure(judged, Sheet::Column), density_figure(judged, Sheet::Column)])
         .table(measured(measures, judged))
         .table(differences(judged))
         .text(format!(
@@ -62,7 +53,7 @@ pub(in crate::fit) fn section(judged: &Judged) -> Section {
 /// The figure of simulated beside recorded traffic.
 pub(in crate::fit) fn figure(judged: &Judged, sheet: Sheet) -> Figure {
     let row = |(key, name): &(&str, &str)| {
-        let measure = judged.measures.iter().find(|it| it.key == *key)?;
+        let measure = judged.third.measures.iter().find(|it| it.key == *key)?;
         let recorded = measure.recorded.filter(|it| *it > 0.0)?;
         let values = measure.simulated.iter().map(|it| {
             let [lower, upper] = it.interval.unwrap_or([f64::NAN; 2]).map(|it| it / recorded);
@@ -78,6 +69,20 @@ pub(in crate::fit) fn figure(judged: &Judged, sheet: Sheet) -> Figure {
         title: "Simulated beside recorded traffic".into(),
         caption: format!(
             "Medians of {} rollouts as shares of what was recorded, with the middle 95 % of the rollouts. 1 is as recorded.",
+            judged.rollouts
+        ),
+    }
+}
+
+/// The figure of lane changes against density.
+pub(in crate::fit) fn density_figure(judged: &Judged, sheet: Sheet) -> Figure {
+    let title = "Lane changes against density";
+    Figure {
+        drawn: estimates(sheet, title, AXES, &judged.third.curves(judged)),
+        title: title.into(),
+        caption: format!(
+            "Medians of {} rollouts of the last third in light, middle and dense traffic, a third of the recorded distance each, with the \
+             middle 95 % of the rollouts.",
             judged.rollouts
         ),
     }

@@ -4,6 +4,7 @@ use laneweave_study::{chance_of_more, count_score, crps, middle_95, quantile, sh
 use serde::Serialize;
 
 pub(super) use super::measures::{Measured, measured};
+use super::tally::CLASSES;
 
 /// Fitted drivers beside recorded ones, on the part of the recordings to which they were not fitted. Fields are added,
 /// never renamed.
@@ -11,12 +12,8 @@ pub(super) use super::measures::{Measured, measured};
 pub struct Judged {
     /// Recorded time to which the style was fitted [s].
     pub fitted_s: f64,
-    /// Time that was simulated and measured [s].
-    pub simulated_s: f64,
     /// Lane changes to which the style was fitted.
     pub events_used: usize,
-    /// Lane changes that were recorded while it was simulated.
-    pub events: u32,
     /// By how much θ of the fitted style was moved, so that its drivers change lanes as often as recorded in the ten
     /// minutes before, in units of the choice noise; 0 if nobody changed lanes then.
     pub theta_moved_by: f64,
@@ -24,8 +21,9 @@ pub struct Judged {
     pub rollouts: usize,
     /// The models: the fitted style first.
     pub models: Vec<JudgedModel>,
-    /// What was measured, recorded and simulated, where the last third is driven as a whole.
-    pub measures: Vec<JudgedMeasure>,
+    /// The last third, driven as a whole.
+    #[serde(flatten)]
+    pub third: Design,
     /// Short rollouts from recorded snapshots of the last third.
     pub snapshots: Design,
 }
@@ -39,12 +37,14 @@ pub struct Design {
     pub simulated_s: f64,
     /// Lane changes that were recorded in that time.
     pub events: u32,
+    /// Recorded mean densities of light, middle and dense traffic [veh/km of a lane].
+    pub densities_veh_per_km: [f64; CLASSES],
     /// What was measured, recorded and simulated.
     pub measures: Vec<JudgedMeasure>,
 }
 
 /// The keys of the rates of lane changes by class of density.
-const BY_DENSITY: [&str; 3] = ["rate_light", "rate_middle", "rate_dense"];
+pub(super) const BY_DENSITY: [&str; CLASSES] = ["rate_light", "rate_middle", "rate_dense"];
 
 /// A model that was simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]

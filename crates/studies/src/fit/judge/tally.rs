@@ -21,6 +21,10 @@ const INTERVAL: f64 = 30.0;
 pub(super) const CLASSES: usize = 3;
 /// A driver is looked at this time before it crosses the line [s].
 const BEFORE: f64 = 1.5;
+/// Gaps count as offered to a driver that it had beside it at most so long before, at a look each second [s] (ours).
+const LOOKS: u32 = 10;
+/// Bounds of the classes of offered gaps: to the new leader and to the new follower together [m] (ours).
+pub(super) const OFFERED: [f64; 2] = [30.0, 60.0];
 /// Without a vehicle ahead or behind a gap counts as this long [m].
 const LONGEST_GAP: f64 = 150.0;
 /// A change that begins or ends this near to the first or last sight of its vehicle may have been cut off there [s].
@@ -50,6 +54,8 @@ pub(super) struct Tally {
     pub(super) gains: Vec<f64>,
     /// Gaps to the new leaders and to the new followers [m].
     pub(super) gaps: [Vec<f64>; 2],
+    /// Gaps beside drivers who then changed lanes there, by length: how many there were, and how many were taken.
+    pub(super) offered: [[u32; 2]; OFFERED.len() + 1],
     /// Of cut-ins: headways of the followers [s], inverse times to collision [1/s], and the braking with which the
     /// follower comes to the speed of the vehicle before it reaches it [m/s²].
     pub(super) headways: Vec<f64>,
@@ -173,15 +179,19 @@ impl Tally {
         let wrong = |error| Fault::new(&scope.style.name, error, "choose another style");
         let replay = replay.map_err(wrong)?.without_destinations();
         for change in within {
-            let frame = ((change.time - BEFORE) / matched.recording.step).round() as i64;
-            let frame = replay.frame(frame);
-            let Some(Situation { here, there, .. }) = frame.perceive(change.vehicle, change.side) else {
-                continue;
-            };
-            self.gains.push(there.anticipated_speed - here.anticipated_speed);
-            let gaps = [there.ahead.map(|it| it.gap), there.behind.map(|it| it.gap)];
-            for (all, gap) in self.gaps.iter_mut().zip(gaps) {
-                all.push(gap.map_or(LONGEST_GAP, |it| it.min(LONGEST_GAP)));
+            let looks = (0..LOOKS).map_while(|earlier| {
+                let time = change.time - BEFORE - f64::from(earlier);
+                let frame = replay.frame((time / matched.recording.step).round() as i64);
+                frame.perceive(change.vehicle, change.side).map(|it| Offer::of(&it))
+            });
+            for (earlier, offer) in looks.enumerate() {
+                let [offered, taken] = &mut self.offered[offer.class()];
+                *offered += 1;
+                if earlier == 0 {
+                    *taken += 1;
+                    self.gains.push(offer.gain);
+                    self.gaps.iter_mut().zip(offer.gaps).for_each(|(all, gap)| all.push(gap));
+                }
             }
         }
         Ok(())
@@ -218,6 +228,11 @@ impl Tally {
         })
     }
 
+    /// Mean densities of the traffic in the classes [veh/km].
+    pub(super) fn densities(&self) -> [f64; CLASSES] {
+        self.by_density(self.thirds()).map(|it| it.density())
+    }
+
     /// All traffic by class of density.
     pub(super) fn by_density(&self, thirds: [f64; CLASSES - 1]) -> [Section; CLASSES] {
         let mut sums = [Section::default(); CLASSES];
@@ -229,6 +244,30 @@ impl Tally {
             sum.area += it.area;
         }
         sums
+    }
+}
+
+/// What a driver has beside it.
+struct Offer {
+    /// The anticipated gain of speed [m/s].
+    gain: f64,
+    /// The gaps to the new leader and to the new follower [m].
+    gaps: [f64; 2],
+}
+
+impl Offer {
+    fn of(Situation { here, there, .. }: &Situation) -> Offer {
+        let gaps = [there.ahead.map(|it| it.gap), there.behind.map(|it| it.gap)];
+        Offer {
+            gain: there.anticipated_speed - here.anticipated_speed,
+            gaps: gaps.map(|it| it.map_or(LONGEST_GAP, |it| it.min(LONGEST_GAP))),
+        }
+    }
+
+    /// The class of its length.
+    fn class(&self) -> usize {
+        let length: f64 = self.gaps.iter().sum();
+        OFFERED.partition_point(|bound| *bound <= length)
     }
 }
 

@@ -35,23 +35,23 @@ impl Judged {
         writeln!(
             out,
             "\nIn the world: a style fitted to {:.0} s with {} lane changes drives in the {:.0} s after them,",
-            self.fitted_s, self.events_used, self.simulated_s
+            self.fitted_s, self.events_used, self.third.simulated_s
         )?;
         writeln!(
             out,
             "in which {} lane changes were recorded; {} rollouts of each model, * not as recorded",
-            self.events, self.rollouts
+            self.third.events, self.rollouts
         )?;
         writeln!(
             out,
             "theta is moved by {:.2}, so that the style changes lanes as often as recorded before",
             self.theta_moved_by
         )?;
-        self.write_measures(out, &self.measures)?;
+        self.write_measures(out, &self.third.measures)?;
         for (number, it) in self.models.iter().enumerate().skip(1) {
             writeln!(out, "{} differs from the fitted style in: {}", it.model, self.differences(number))?;
         }
-        let Design { simulations, simulated_s, events, measures } = &self.snapshots;
+        let Design { simulations, simulated_s, events, measures, .. } = &self.snapshots;
         writeln!(
             out,
             "\nRollouts from recorded snapshots: {simulations}, {simulated_s:.0} s with {events} lane changes"
@@ -59,7 +59,7 @@ impl Judged {
         self.write_measures(out, measures)?;
         writeln!(out, "\nScores of the predictions, the less the better: CRPS, and of counts nats")?;
         self.write_head(out, "", OTHER)?;
-        for (of, measures) in [("last third", &self.measures), ("snapshots", measures)] {
+        for (of, measures) in [("last third", &self.third.measures), ("snapshots", measures)] {
             writeln!(out, "  {of}")?;
             self.write_scores(out, measures)?;
         }
@@ -116,7 +116,7 @@ impl Judged {
 
     /// The names of some measures.
     fn names(&self, is_named: impl Fn(&JudgedMeasure) -> bool) -> String {
-        let named = self.measures.iter().filter(|it| is_named(it));
+        let named = self.third.measures.iter().filter(|it| is_named(it));
         let names: Vec<&str> = named.map(|it| it.name.split(" [").next().unwrap_or(&it.name)).collect();
         if names.is_empty() { "nothing that was measured".to_owned() } else { names.join("; ") }
     }
