@@ -14,6 +14,9 @@ pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
         StandsFor::LastPlace(distance) => {
             format!("the last place for a route-driven lane change is {distance:.1} m ahead")
         }
+        StandsFor::Obstacle { vehicle, gap } => {
+            format!("vehicle {vehicle} stands in its lane {gap:.1} m ahead: it looks for a gap beside it")
+        }
         StandsFor::LetsIn(distance) => {
             format!("it yields to a vehicle that changes lanes {distance:.1} m ahead")
         }

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use laneweave_sim::{Command, Control, NewVehicle, VehicleId, World};
+use laneweave_sim::{Command, Control, Longitudinal, NewVehicle, VehicleId, World};
 use laneweave_study::seconds;
 
 use crate::fault::Fault;
@@ -218,8 +218,16 @@ fn planned(external: &External, world: &World) -> Result<Planned, Wrong> {
 }
 
 impl Planned {
-    /// Puts the vehicle on the road, if its place is free.
+    /// Puts the vehicle on the road, if its place is free. One that stands there waits for a while until whoever drives
+    /// behind can stop far enough behind it to go round it.
     fn put(&self, world: &mut World) -> Option<VehicleId> {
+        /// It waits so long [s] (ours): in a jam nobody leaves so much room.
+        const WAITS: f64 = 60.0;
+        let stands = matches!(self.control, Control::Drive { longitudinal: Longitudinal::Speed(0.0), .. });
+        let waits = world.clock().step < self.from_step + world.clock().steps(WAITS);
+        if stands && waits && !world.has_room_behind(&self.vehicle) {
+            return None;
+        }
         let id = world.command(Command::Insert(self.vehicle.clone())).ok().flatten()?;
         if self.control.is_external() {
             // It was checked, and is the first for this vehicle.

@@ -44,6 +44,13 @@ pub enum StandsFor {
     LaneEnd(f64),
     /// The last place for a necessary change, so far ahead [m].
     LastPlace(f64),
+    /// A vehicle that stands in its lane, and that it has to go round.
+    Obstacle {
+        /// Its id.
+        vehicle: VehicleId,
+        /// The gap to it [m].
+        gap: f64,
+    },
     /// It lets in a vehicle so far ahead [m].
     LetsIn(f64),
     /// Nothing: it drives off.
@@ -68,8 +75,10 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let (motion, lane_change) = (scene.motion(spot), scene.lane_change(spot));
     let from = scene.viewpoint(spot);
     let leader = scene.ahead(from).zip(scene.leader_spot(from));
-    let leader =
-        leader.map(|(it, spot)| (it.gap, StandsFor::Leader { vehicle: scene.motion(spot).id, gap: it.gap }));
+    let leader = leader.map(|(it, spot)| (it.gap, scene.motion(spot)));
+    let obstacle =
+        leader.filter(|(_, it)| scene.externals.of(it.id).is_some_and(|it| it.passable_since.is_some()));
+    let leader = leader.map(|(gap, it)| (gap, StandsFor::Leader { vehicle: it.id, gap }));
     let stop = junction.stop.map(|it| (it, before_a_junction(world, &scene, spot, it)));
     let merge =
         junction.leader.map(|it| (it.ahead.gap.max(it.stop), StandsFor::After(before_it(&scene, spot))));
@@ -84,7 +93,10 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
         stop,
         merge,
         end.map(|it| (it, StandsFor::LaneEnd(it))),
-        place.map(|it| (it, StandsFor::LastPlace(lane_change.last_place - motion.x))),
+        place.map(|it| match obstacle {
+            Some((gap, vehicle)) => (it, StandsFor::Obstacle { vehicle: vehicle.id, gap }),
+            None => (it, StandsFor::LastPlace(lane_change.last_place - motion.x)),
+        }),
         lets_in.map(|it| (it, StandsFor::LetsIn(it))),
     ];
     /// Nothing farther ahead than this makes a vehicle stand [m].

@@ -32,7 +32,9 @@ const AT_THE_PLACE: f64 = 20.0;
 /// A driver in a wrong lane reacts to the last place for a change within this distance [m].
 const REACTS_WITHIN: f64 = 400.0;
 /// A vehicle that stands this long is stuck, unless what it waits for is sure to end [s].
-const STUCK_AFTER: f32 = 300.0;
+pub(super) const STUCK_AFTER: f32 = 300.0;
+/// Whoever had to wait has this much time to drive off when it no longer has to [s].
+const GRACE: f32 = 30.0;
 
 /// Considers both sides at a driver's turn. `hints` are the entries beside the last driver of the lane who had its
 /// turn.
@@ -98,7 +100,7 @@ fn note_turn(
         if is_stuck(scene, spot, moment.clock, &mut outbox.survey) {
             outbox.counters.stuck += 1;
         } else {
-            note.standing = driver.standing;
+            note.standing = STUCK_AFTER - GRACE;
         }
     }
     if note.standing > 0.0 && driver.standing == 0.0 {

@@ -2,6 +2,7 @@
 
 use laneweave_network::ZoneIndex;
 
+use crate::driver::consider::STUCK_AFTER;
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
@@ -36,7 +37,7 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
     let mut at = spot;
     for _ in 0..LONGEST {
         if scene.driver(at).is_external {
-            return false;
+            return at != spot && could_go_round(scene, at, clock);
         }
         match blocker(scene, at, clock, survey) {
             Blocker::Other if waits_for_a_user(scene, at, survey) => return false,
@@ -49,6 +50,14 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
         }
     }
     true
+}
+
+/// Whether drivers could have gone round the vehicle at `at`, which a user drives, for as long as whoever is stuck has
+/// stood.
+fn could_go_round(scene: &Scene, at: Spot, clock: Clock) -> bool {
+    let external = scene.externals.of(scene.motion(at).id);
+    let since = external.and_then(|it| it.passable_since);
+    since.is_some_and(|it| clock.since(it) >= f64::from(STUCK_AFTER))
 }
 
 /// Whether the vehicle at `at`, which waits at or in the junction that was surveyed, waits for a vehicle that a user

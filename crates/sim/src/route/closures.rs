@@ -1,5 +1,6 @@
-//! Closed lanelets: where users closed lanes, and how drivers know of it. Routes stay as they are. A driver on a lane
-//! that is closed ahead has a lane change to make before.
+//! Closed lanes: where users closed lanelets, and where something stands in a lane, such as a vehicle that has broken
+//! down, and how drivers know of it. Routes stay as they are. A driver on a lane that is closed ahead has a lane change
+//! to make before. What nobody can go round closes no lane: the queue behind it waits.
 
 use std::borrow::Cow;
 
@@ -9,13 +10,39 @@ use crate::route::navigate::Navigator;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 
-/// The lanelets that users closed.
+/// Something that stands in a lane, and does not go on by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Standing {
+    /// The lane.
+    pub(crate) chain: ChainIndex,
+    /// Its rear and its front [m].
+    pub(crate) reach: [f64; 2],
+}
+
+/// For each side the number of lanes to the next one that is open beside a closed stretch, and the place there.
+type OpenLanes = [Option<(u32, Position)>; 2];
+
+/// The lanelets that users closed, and what stands in lanes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closures {
     /// Sorted.
     closed: Vec<LaneletIndex>,
-    /// For each chain the closed stretches [m], in order, and whether it leads to one soon. Empty if there is none.
-    of_chain: Vec<(Vec<[f64; 2]>, bool)>,
+    standing: Vec<Standing>,
+    /// For each chain the closed stretches, in order, and whether it leads to one soon. Empty if there is none.
+    of_chain: Vec<(Vec<Stretch>, bool)>,
+}
+
+/// A closed stretch of a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Stretch {
+    /// Where it begins and ends [m].
+    reach: [f64; 2],
+    /// Who is on it up to here still leaves the lane before what closes it [m].
+    leaves_until: f64,
+    /// From this distance on drivers know of it [m].
+    known_from: f64,
+    /// The lanes beside it that are open.
+    open: OpenLanes,
 }
 
 impl Closures {
@@ -26,29 +53,83 @@ impl Closures {
     /// The lanes beside a closed lanelet are those this far after its start [m].
     const INTO: f64 = 1.0;
 
-    /// These lanelets of `network` are closed.
-    pub(crate) fn of(network: &Network, mut closed: Vec<LaneletIndex>) -> Closures {
+    /// These lanelets of `network` are closed, and this stands in its lanes.
+    pub(crate) fn of(network: &Network, mut closed: Vec<LaneletIndex>, standing: Vec<Standing>) -> Closures {
         closed.sort_unstable();
         closed.dedup();
-        if closed.is_empty() {
+        if closed.is_empty() && standing.is_empty() {
             return Closures::default();
         }
-        let mut of_chain = vec![(Vec::new(), false); network.chains.len()];
-        for lanelet in &closed {
-            let start = network.start_of(*lanelet);
-            let end = start.x + network.lanelets[lanelet.at()].length();
-            of_chain[start.chain.at()].0.push([start.x, end]);
-            let mut open = vec![(start.chain, start.x)];
-            while let Some((chain, before)) = open.pop() {
-                of_chain[chain.at()].1 = true;
-                if before < Closures::BRAKING {
-                    let previous = network.chain(chain).previous.iter();
-                    open.extend(previous.map(|it| (*it, before + network.chain(*it).length)));
-                }
+        let of_chain = vec![(Vec::new(), false); network.chains.len()];
+        let mut closures = Closures { closed, standing, of_chain };
+        for at in 0..closures.closed.len() {
+            let lanelet = closures.closed[at];
+            let Position { chain, x } = network.start_of(lanelet);
+            let reach = [x, x + network.lanelets[lanelet.at()].length()];
+            let known_from = Navigator::SIGNED;
+            closures.add(network, chain, Stretch { reach, leaves_until: x, known_from, open: [None; 2] });
+        }
+        let lanelets = closures.clone();
+        for (number, (stretches, _)) in closures.of_chain.iter_mut().enumerate() {
+            for it in stretches {
+                it.open = lanelets.open_lanes(network, Position::new(ChainIndex(number as u32), it.reach[0]));
             }
         }
-        of_chain.iter_mut().for_each(|it| it.0.sort_by(|a, b| a[0].total_cmp(&b[0])));
-        Closures { closed, of_chain }
+        for at in 0..closures.standing.len() {
+            let it = closures.standing[at];
+            let open = lanelets.lanes_round(network, &it, &closures.standing);
+            if let Some(lanes) = open.iter().flatten().map(|it| it.0).min() {
+                let [rear, front] = it.reach;
+                closures.add(
+                    network,
+                    it.chain,
+                    Stretch {
+                        reach: [it.kept(lanes), front],
+                        leaves_until: rear - Standing::LEAST_ROOM,
+                        known_from: Standing::SEEN,
+                        open,
+                    },
+                );
+            }
+        }
+        let order = |a: &Stretch, b: &Stretch| a.reach[0].total_cmp(&b.reach[0]);
+        closures.of_chain.iter_mut().for_each(|it| it.0.sort_by(order));
+        closures
+    }
+
+    /// Adds a closed stretch of a chain.
+    fn add(&mut self, network: &Network, chain: ChainIndex, stretch: Stretch) {
+        self.of_chain[chain.at()].0.push(stretch);
+        let mut open = vec![(chain, stretch.reach[0])];
+        while let Some((chain, before)) = open.pop() {
+            self.of_chain[chain.at()].1 = true;
+            if before < Closures::BRAKING {
+                let previous = network.chain(chain).previous.iter();
+                open.extend(previous.map(|it| (*it, before + network.chain(*it).length)));
+            }
+        }
+    }
+
+    /// The open lanes beside something that stands in a lane, where all this is `standing`; none where drivers cannot
+    /// go round it.
+    fn lanes_round(&self, network: &Network, it: &Standing, standing: &[Standing]) -> OpenLanes {
+        let Standing { chain, reach: [rear, front] } = *it;
+        let is_free = |at: &Position| {
+            let [from, until] = [at.x - Standing::ROOM_BEFORE, at.x + front - rear + Standing::ROOM_BEYOND];
+            let stands_there =
+                |other: &Standing| other.chain == at.chain && other.reach[0] < until && other.reach[1] > from;
+            !self.cover(at.chain, at.x) && !standing.iter().any(stands_there)
+        };
+        let before = back(network, Position::new(chain, rear), Closures::LOOKED_AT[1]);
+        Side::BOTH.map(|side| {
+            before.and_then(|it| network.chain(it.chain).beside(side, it.x))?;
+            next_lane(network, Position::new(chain, rear), side, is_free)
+        })
+    }
+
+    /// What stands in lanes.
+    pub(crate) fn standing(&self) -> &[Standing] {
+        &self.standing
     }
 
     /// The closed lanelets.
@@ -68,33 +149,28 @@ impl Closures {
         self.of_chain.get(chain.at()).is_some_and(|it| it.1)
     }
 
-    /// The closed stretches of `chain` [m].
-    fn on(&self, chain: ChainIndex) -> &[[f64; 2]] {
+    /// The closed stretches of `chain`.
+    fn on(&self, chain: ChainIndex) -> &[Stretch] {
         self.of_chain.get(chain.at()).map_or(&[], |it| &it.0)
     }
 
     /// Whether `chain` is closed at `x` [m].
     #[inline(never)]
     pub(crate) fn cover(&self, chain: ChainIndex, x: f64) -> bool {
-        self.on(chain).iter().any(|[from, to]| (*from..*to).contains(&x))
+        self.on(chain).iter().any(|it| (it.reach[0]..it.reach[1]).contains(&x))
     }
 
-    /// For each side the number of lanes to the next one that is open beside a closed lanelet that begins at `start`,
-    /// and its chain.
-    fn open_lanes<'a>(
-        &'a self,
-        network: &'a Network,
-        start: Position,
-    ) -> impl Iterator<Item = (u32, ChainIndex)> + 'a {
+    /// Whether something stands with its front at `front` [m], and drivers can go round it.
+    pub(crate) fn close_behind(&self, chain: ChainIndex, front: f64) -> bool {
+        self.standing
+            .iter()
+            .any(|it| it.chain == chain && it.reach[1] == front && self.cover(chain, it.reach[0]))
+    }
+
+    /// The open lanes beside a closed lanelet that begins at `start`.
+    fn open_lanes(&self, network: &Network, start: Position) -> OpenLanes {
         let start = Position::new(start.chain, start.x + Closures::INTO);
-        Side::BOTH.into_iter().filter_map(move |side| {
-            let beside = |at: &Position| {
-                let beside = network.chain(at.chain).beside(side, at.x)?;
-                Some(Position::new(beside.chain, beside.across(at.x)))
-            };
-            let lanes = std::iter::successors(Some(start), beside).zip(0..);
-            lanes.skip(1).find(|(at, _)| !self.cover(at.chain, at.x)).map(|(at, count)| (count, at.chain))
-        })
+        Side::BOTH.map(|side| next_lane(network, start, side, |at| !self.cover(at.chain, at.x)))
     }
 
     /// Why drivers could not leave the lane of a closed `lanelet` before it, and what to do, if they could not.
@@ -119,15 +195,39 @@ impl Closures {
         let can_leave = |it: &Position| {
             Side::BOTH.into_iter().any(|side| network.chain(it.chain).beside(side, it.x).is_some())
         };
-        let has_open_lane = self.open_lanes(network, start).next().is_some();
+        let has_open_lane = self.open_lanes(network, start) != [None; 2];
         (!has_open_lane || !before.iter().all(can_leave))
             .then_some("drivers could not change to an open lane before it; leave a lane beside it open")
+    }
+}
+
+impl Standing {
+    /// Road that drivers keep behind it, on which they steer out of its lane, and that it keeps free beside it [m]
+    /// (ours).
+    const ROOM: f64 = 12.0;
+    /// A lane beside it is open if nothing stands there so far before its rear and beyond its front [m] (ours).
+    pub(crate) const ROOM_BEFORE: f64 = Standing::ROOM + Standing::ROOM_FOR_A_LANE;
+    const ROOM_BEYOND: f64 = 25.0;
+    /// The least of it on which a car can steer out [m] (ours).
+    const LEAST_ROOM: f64 = 5.0;
+    /// More of it for each lane that is closed beside it, too [m] (ours).
+    const ROOM_FOR_A_LANE: f64 = 40.0;
+    /// From this distance on drivers see it [m] (ours).
+    const SEEN: f64 = 500.0;
+
+    /// The place up to which drivers come on its lane, if the next open one is so many lanes away [m].
+    fn kept(&self, lanes: u32) -> f64 {
+        let room = Standing::ROOM + Standing::ROOM_FOR_A_LANE * f64::from(lanes.saturating_sub(1));
+        (self.reach[0] - room).max(0.0)
     }
 }
 
 impl Navigator {
     /// A closed lanelet is signed this far ahead [m], ours.
     pub(crate) const SIGNED: f64 = 2000.0;
+    /// Closed stretches that follow within this distance count together [m], up to so many of them (ours).
+    const SOON: f64 = 200.0;
+    const IN_A_ROW: u32 = 3;
 
     /// The closed lanelets.
     #[inline]
@@ -140,29 +240,31 @@ impl Navigator {
         self.closures = closures;
     }
 
-    /// Distance to the next closed lanelet on the route from `x` on `chain` to `destination`, within `reach` [m], and
-    /// where it starts. A vehicle on closed lanelets drives off them.
+    /// Distance to the next closed stretch on the route from `x` on `chain` to `destination`, `within` these [m], and
+    /// the open lanes beside it. A vehicle on closed lanelets drives off them.
     pub(crate) fn closure_ahead(
         &self,
         network: &Network,
         destination: Destination,
         chain: ChainIndex,
         x: f64,
-        reach: f64,
-    ) -> Option<(f64, Position)> {
+        within: f64,
+    ) -> Option<(f64, OpenLanes)> {
         /// Lanelets this near to each other are joined [m].
         const JOINED: f64 = 0.1;
         if self.closures.is_empty() {
             return None;
         }
         let mut closed_until = f64::NEG_INFINITY;
-        for leg in self.walk(network, destination, chain, -x).within(reach) {
-            for [from, to] in self.closures.on(leg.chain) {
-                let [ahead, end] = [from, to].map(|it| leg.start + it);
+        for leg in self.walk(network, destination, chain, -x).within(within) {
+            for Stretch { reach, leaves_until, known_from, open } in self.closures.on(leg.chain) {
+                let [begin, end] = reach.map(|it| leg.start + it);
+                let last = leg.start + leaves_until;
+                let ahead = if begin < 0.0 && last > 0.0 { last } else { begin };
                 if ahead < 0.0 || ahead - closed_until < JOINED {
                     closed_until = if end > 0.0 { end } else { closed_until };
-                } else {
-                    return (ahead <= reach).then_some((ahead, Position::new(leg.chain, *from)));
+                } else if ahead <= within.min(*known_from) {
+                    return Some((ahead, *open));
                 }
             }
         }
@@ -182,20 +284,56 @@ impl Navigator {
         if self.closures.is_empty() {
             return waypoint;
         }
-        let Some((ahead, at)) = self.closure_ahead(network, destination, chain, x, Navigator::SIGNED) else {
+        let Some((ahead, open)) = self.closure_ahead(network, destination, chain, x, Navigator::SIGNED)
+        else {
             return waypoint;
         };
         let last_place = x + ahead;
         if waypoint.last_place <= last_place || waypoint.end <= last_place {
             return waypoint;
         }
-        let changes_from = |(lanes, chain): (u32, ChainIndex)| {
-            let there = self.waypoint(destination, chain);
-            lanes + if there.leads_there() { there.changes } else { waypoint.changes }
-        };
-        let changes = self.closures.open_lanes(network, at).map(changes_from).min().unwrap_or(1);
+        let changes = self.changes_by(network, destination, &open, waypoint.changes, Navigator::IN_A_ROW);
         Cow::Owned(Waypoint { changes, last_place, ..waypoint.into_owned() })
     }
+
+    /// The fewest changes by one of the `open` lanes beside a closed stretch, where a lane that does not lead on takes
+    /// so many as the own one, `otherwise`. Up to `more` closed stretches that follow soon count, too.
+    fn changes_by(
+        &self,
+        network: &Network,
+        destination: Destination,
+        open: &OpenLanes,
+        otherwise: u32,
+        more: u32,
+    ) -> u32 {
+        let by = |(lanes, at): &(u32, Position)| {
+            let there = self.waypoint(destination, at.chain);
+            let changes = if there.leads_there() { there.changes } else { otherwise };
+            let next = (more > 0)
+                .then(|| self.closure_ahead(network, destination, at.chain, at.x, Navigator::SOON))
+                .flatten();
+            lanes
+                + next.map_or(changes, |(_, open)| {
+                    self.changes_by(network, destination, &open, changes, more - 1)
+                })
+        };
+        open.iter().flatten().map(by).min().unwrap_or(1)
+    }
+}
+
+/// The number of lanes from a place to the next one on a `side` that is open, and the place there.
+fn next_lane(
+    network: &Network,
+    at: Position,
+    side: Side,
+    is_open: impl Fn(&Position) -> bool,
+) -> Option<(u32, Position)> {
+    let beside = |at: &Position| {
+        let beside = network.chain(at.chain).beside(side, at.x)?;
+        Some(Position::new(beside.chain, beside.across(at.x)))
+    };
+    let mut lanes = std::iter::successors(beside(&at), beside).zip(1..);
+    lanes.find(|(at, _)| is_open(at)).map(|(at, count)| (count, at))
 }
 
 /// The place `distance` [m] before `at`, on its chain or on the only one before it.

@@ -6,7 +6,7 @@ use laneweave_models::Style;
 use laneweave_network::{Ground, LaneletIndex, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
-use crate::route::closures::Closures;
+use crate::route::closures::{Closures, Standing};
 use crate::route::fitting_speed::Outlook;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
@@ -68,7 +68,14 @@ impl Roads {
 
     /// Closes these lanelets to all vehicles, and opens all others.
     pub(crate) fn close(&mut self, closed: Vec<LaneletIndex>) {
-        self.navigator.close(Closures::of(&self.network, closed));
+        let standing = self.navigator.closures().standing().to_vec();
+        self.navigator.close(Closures::of(&self.network, closed, standing));
+    }
+
+    /// Lets drivers know what stands in lanes.
+    pub(crate) fn note_standing(&mut self, standing: Vec<Standing>) {
+        let closed = self.navigator.closures().closed().to_vec();
+        self.navigator.close(Closures::of(&self.network, closed, standing));
     }
 
     /// All sets of driver parameters.

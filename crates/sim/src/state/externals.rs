@@ -37,6 +37,8 @@ pub(crate) struct External {
     pub(crate) body: Option<Body>,
     /// Steps in which it stood although its driver would have gone.
     pub(crate) idle: u32,
+    /// The step since which it stands in a lane so that drivers can go round it.
+    pub(crate) passable_since: Option<u32>,
 }
 
 /// The body of a vehicle that a user drives by poses.
@@ -73,6 +75,7 @@ impl External {
             is_recorded: false,
             body: None,
             idle: 0,
+            passable_since: None,
         }
     }
 

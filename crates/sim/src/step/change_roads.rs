@@ -21,7 +21,7 @@ pub(super) fn change_roads(roads: &mut Roads, traffic: &mut Traffic, commands: &
     }
     if commands.iter().any(|it| matches!(it.command, Command::CloseLanelet { .. })) {
         let closed = closed_after(roads, commands);
-        close(roads, traffic, closed);
+        close(roads, traffic, |roads| roads.close(closed));
     }
 }
 
@@ -39,11 +39,10 @@ fn closed_after(roads: &Roads, commands: &[Commanded]) -> Vec<LaneletIndex> {
     closed
 }
 
-/// Closes these lanelets, and opens all others. Drivers who have one ahead, or no longer have one, consider lanes at
-/// once.
-fn close(roads: &mut Roads, traffic: &mut Traffic, closed: Vec<LaneletIndex>) {
+/// Changes where lanes are closed. Drivers who have a closed one ahead, or no longer have one, consider lanes at once.
+pub(super) fn close(roads: &mut Roads, traffic: &mut Traffic, change: impl FnOnce(&mut Roads)) {
     let before: Vec<Option<f64>> = closures_ahead(roads, traffic).collect();
-    roads.close(closed);
+    change(roads);
     let now: Vec<Option<f64>> = closures_ahead(roads, traffic).collect();
     let step = traffic.clock().step;
     let mut is_changed = before.iter().zip(&now).map(|(before, now)| before != now);

@@ -145,7 +145,7 @@ impl World {
             }
         }
         closed.push(index);
-        let closures = Closures::of(network, closed);
+        let closures = Closures::of(network, closed, Vec::new());
         let why = closures.closed().iter().find_map(|it| closures.flaw(network, *it));
         why.map_or(Ok(()), |why| Err(CommandError::Closing { lanelet, why }))
     }

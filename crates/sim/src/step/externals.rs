@@ -13,7 +13,7 @@ use crate::view::scene::Spot;
 
 /// An external vehicle that stands this long although its driver would go lets others go first, until it moves [s]
 /// (ours).
-const PATIENCE: f64 = 2.0;
+pub(super) const PATIENCE: f64 = 2.0;
 
 /// Hands the controls of external vehicles to the plans of their lanes.
 pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {

@@ -5,6 +5,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Position};
 
 use crate::driver::perceive::driver_of;
+use crate::route::closures::Standing;
 use crate::state::command::NewVehicle;
 use crate::state::control::Control;
 use crate::state::goal::Destination;
@@ -39,7 +40,7 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
     if !network.chain(chain).takes(x, class.is_long()) {
         return Err(refused("the lane is too narrow for it there; choose another lane".into()));
     }
-    if navigator.closures().cover(chain, x) {
+    if navigator.closures().closed().contains(&index) {
         return Err(refused("the lanelet is closed; choose another one, or open it".into()));
     }
     let junctions = &network.junctions;
@@ -100,4 +101,17 @@ pub(super) fn in_the_way(world: &World, body: &Body) -> Option<VehicleId> {
     let behind = driver_of(&scene, follower.spot);
     let gap = follower.distance - length;
     (!is_secure(behind.pace.speed, Ahead::steady(gap, speed), dt)).then(|| id(follower.spot))
+}
+
+impl World {
+    /// Whether a driver behind could stop so far behind `vehicle`, which stands, that it can go round it. A place that
+    /// does not exist has room.
+    pub fn has_room_behind(&self, vehicle: &NewVehicle) -> bool {
+        let Ok(lanelet) = self.lanelet_with(vehicle.lanelet) else { return true };
+        let Position { chain, x: start } = self.roads.network().start_of(lanelet);
+        let length = vehicle.class.body().length + Standing::ROOM_BEFORE;
+        let (destination, is_long) = (None, vehicle.class.is_long());
+        let body = Body { chain, x: start + vehicle.position_m, length, speed: 0.0, destination, is_long };
+        in_the_way(self, &body).is_none()
+    }
 }

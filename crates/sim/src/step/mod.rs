@@ -7,7 +7,7 @@
 //! * `command.rs` takes commands of users, `change_roads.rs` and `carry_out.rs` carry them out, `settings.rs` tells
 //!   what is set now; `insert.rs` and `names.rs` help
 //! * `externals.rs`, `move_externals.rs`, `relocate.rs`, `obstacle.rs` and `show_rears.rs` the vehicles that users
-//!   drive; `recorded.rs` those that a recording moves
+//!   drive; `see_standing.rs` what others know of them; `recorded.rs` those that a recording moves
 //! * `pool.rs` and `work.rs` the threads and their memory
 //! * `checkpoint.rs` and `seal.rs` the state of a world as bytes
 //! * `queries.rs`, `columns.rs`, `vehicle.rs` and `index.rs` what a world tells of itself
@@ -43,6 +43,7 @@ pub(crate) mod relocate;
 pub(crate) mod reserve_on_entering;
 pub(crate) mod resolve;
 pub(crate) mod seal;
+pub(crate) mod see_standing;
 pub(crate) mod settings;
 pub(crate) mod show_rears;
 pub(crate) mod switch_lights;

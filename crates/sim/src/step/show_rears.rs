@@ -58,15 +58,20 @@ fn hanging(network: &Network, traffic: &Traffic) -> Vec<(ChainIndex, Entry)> {
     found
 }
 
-/// The obstacles that show what drivers would not see. The vehicle that `hangs_back` has its front beyond the lane.
+/// The obstacles that show what drivers would not see. The vehicle that `hangs_back` has its front beyond the lane. A
+/// vehicle has one at a place: several vehicles may end at the end of a lane.
 fn hidden(lane: &Lane, hangs_back: Option<Entry>) -> Vec<Entry> {
-    let mut found = Vec::new();
+    let mut found: Vec<Entry> = Vec::new();
     let mut rearmost = (hangs_back.map_or(f64::INFINITY, |it| it.motion.rear()), None);
     for (index, motion) in lane.motions().iter().enumerate().rev() {
         let (x, (rear, of)) = (motion.x - BEHIND, rearmost);
         if motion.rear() <= rear {
             rearmost = (motion.rear(), Some(index));
         } else if let Some(of) = of.map(|it| lane.entry(it)).or(hangs_back).filter(|_| x > rear) {
+            let is_shown = |it: &Entry| (it.motion.id, it.motion.x) == (of.motion.id, x);
+            if found.last().is_some_and(is_shown) {
+                continue;
+            }
             found.push(Entry {
                 motion: Kinematics { x, length: (x - rear) as f32, ..of.motion },
                 ..parked(&of)

@@ -29,6 +29,7 @@ use crate::step::move_externals::move_externals;
 use crate::step::note_incidents::note_incidents;
 use crate::step::note_milestones::note_milestones;
 use crate::step::resolve::resolve;
+use crate::step::see_standing::see_standing;
 use crate::step::switch_lights::switch_lights;
 use crate::step::transfer::transfer;
 use crate::step::work::Work;
@@ -156,6 +157,7 @@ impl World {
         enter(roads, traffic, junctions, arrivals, log, work);
         guide(roads, traffic, arrivals);
         follow_externals(roads.network(), traffic, work);
+        see_standing(roads, traffic);
         if traffic.clock().begins_a_second() {
             log.put_down(roads.network(), traffic.lanes(), traffic.clock());
         }

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use laneweave_network::{ChainIndex, Side};
 use laneweave_sim::{Class, Command, Control, Event, Lateral, Longitudinal, NewVehicle, VehicleId, World};
+use laneweave_test_data::size;
 
 use crate::external::struck::History;
 use crate::external::worlds::world;
@@ -211,5 +212,14 @@ fn a_hundred_mad_users_do_not_bring_the_traffic_down() {
         eprintln!("{map}: {incidents} incidents; simulated drivers struck {strikes} times");
         assert!(incidents > 20 * minutes as usize && stuck_after == 0, "{map}: {incidents}, {stuck_after}");
         assert!(avoidable.is_empty(), "{map}: {avoidable:#?}");
+    }
+}
+
+#[test]
+fn vehicles_that_are_removed_leave_no_trace() {
+    // Where several vehicles end at the end of a lane, one that reached back further was shown twice at one place, and
+    // one of the two drove on by itself.
+    for seed in 1..size().pick(3, 16) {
+        abuse("town.osm", 600.0, seed, 1500);
     }
 }

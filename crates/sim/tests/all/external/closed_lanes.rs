@@ -19,7 +19,7 @@ fn steps(world: &mut World, count: u32) {
 }
 
 /// The lanelets of a straight motorway `x` [m] from its beginning, from the right to the left.
-fn across(world: &World, x: f64) -> Vec<i64> {
+pub(crate) fn across(world: &World, x: f64) -> Vec<i64> {
     let mut found = Vec::new();
     for lanelet in &world.network().lanelets {
         let line = &lanelet.centre;

@@ -202,7 +202,8 @@ fn stops_for_the_rearmost_one(map: &str, at: Position) {
     let events = steps(&mut world, 400);
     let struck = events.iter().filter(|it| matches!(it, Event::Incident(_))).count();
     let (rear, front) = (rear(&world, long), front(&world, behind));
-    assert!(struck == 0 && front < rear && front > rear - 5.0, "{map}: {struck}: {front} m behind {rear} m");
+    // Far enough behind it to go round it, had it not to keep its lane.
+    assert!(struck == 0 && front < rear && front > rear - 30.0, "{map}: {struck}: {front} m behind {rear} m");
 }
 
 #[test]

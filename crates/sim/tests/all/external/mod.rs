@@ -9,6 +9,7 @@ mod lanes;
 mod parameters;
 mod poses;
 mod recorded;
+mod standing;
 mod struck;
 mod worlds;
 mod yielding;

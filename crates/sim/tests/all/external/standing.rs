@@ -1,0 +1,124 @@
+//! Something stands in a lane: drivers see it from afar, leave its lane, and pass.
+
+use laneweave_sim::{Class, Command, Control, Lateral, Longitudinal, NewVehicle, VehicleId, World};
+
+use crate::external::closed_lanes::across;
+use crate::external::worlds::world;
+
+/// A vehicle that has broken down.
+#[derive(Clone, Copy)]
+struct Broken {
+    /// Its lane, from the right.
+    lane: usize,
+    /// Where its front bumper is [m].
+    x: f64,
+    class: Class,
+}
+
+const CAR: Broken = Broken { lane: 0, x: 2050.0, class: Class::Car };
+
+/// Puts a vehicle that does not move on a straight motorway.
+fn put(world: &mut World, broken: Broken) -> VehicleId {
+    let lanelet = across(world, broken.x)[broken.lane];
+    let lanelets = &world.network().lanelets;
+    let start = lanelets.iter().find(|it| it.id == lanelet).expect("it is there").centre.at(0.0).x;
+    let vehicle = NewVehicle {
+        lanelet,
+        position_m: broken.x - start,
+        speed_mps: 0.0,
+        class: broken.class,
+        style: "conservative".into(),
+        destination: None,
+    };
+    let id = world.command(Command::Insert(vehicle)).expect("its place is free").expect("it has an id");
+    let control = Control::Drive { longitudinal: Longitudinal::Speed(0.0), lateral: Lateral::Keep };
+    world.command(Command::Control(id, control)).expect("it is possible");
+    id
+}
+
+/// What comes of a drive of a quarter of an hour.
+struct Driven {
+    world: World,
+    /// Time that all vehicles of the demand spent on the road [s].
+    spent: f64,
+}
+
+fn drive(map: &str, demand: f64, seed: u64, broken: &[Broken]) -> Driven {
+    let mut world = world(map, demand, seed, 1);
+    for it in broken {
+        put(&mut world, *it);
+    }
+    let mut spent = 0.0;
+    for _ in 0..9000 {
+        world.step();
+        spent += 0.1 * (world.vehicles().count() - broken.len()) as f64;
+    }
+    Driven { world, spent }
+}
+
+/// The time that each driver loses because of what stands there, beside a free road with the same arrivals [s].
+fn lost(map: &str, demand: f64, seed: u64, broken: &[Broken]) -> f64 {
+    let [free, blocked] = [&[][..], broken].map(|it| drive(map, demand, seed, it));
+    let counters = blocked.world.counters();
+    assert_eq!((counters.collisions, counters.overlaps, counters.stuck, counters.lost), (0, 0, 0, 0));
+    (blocked.spent - free.spent) / free.world.counts().left as f64
+}
+
+#[test]
+fn whoever_passes_a_vehicle_that_has_broken_down_loses_a_few_seconds() {
+    for (map, lanes, demand) in [("motorway_2_lanes.osm", 2, 500.0), ("motorway_3_lanes.osm", 3, 1200.0)] {
+        for lane in 0..lanes {
+            for class in [Class::Car, Class::Truck] {
+                let seconds = lost(map, demand, 3 + lane as u64, &[Broken { lane, class, ..CAR }]);
+                assert!(seconds < 5.0, "{map}, lane {lane}, {class:?}: {seconds} s");
+            }
+        }
+    }
+}
+
+#[test]
+fn drivers_change_two_lanes_before_two_that_are_blocked_side_by_side() {
+    let far = Broken { lane: 1, x: 2070.0, class: Class::Truck };
+    for (broken, seed) in [([CAR, far], 1), ([Broken { lane: 2, ..CAR }, far], 2)] {
+        let seconds = lost("motorway_3_lanes.osm", 600.0, seed, &broken);
+        assert!(seconds < 8.0, "{seconds} s");
+    }
+}
+
+#[test]
+fn drivers_wind_their_way_between_vehicles_that_stand_one_after_the_other() {
+    let second = Broken { lane: 1, x: 2150.0, ..CAR };
+    let seconds = lost("motorway_2_lanes.osm", 500.0, 4, &[CAR, second]);
+    assert!(seconds < 15.0, "{seconds} s");
+}
+
+#[test]
+fn where_no_lane_is_free_the_queue_waits_and_goes_on_when_one_is_free_again() {
+    let mut world = world("motorway_2_lanes.osm", 500.0, 5, 1);
+    let [first, _] = [0, 1].map(|lane| put(&mut world, Broken { lane, ..CAR }));
+    (0..6000).for_each(|_| world.step());
+    let passed = |world: &World| {
+        world.vehicles().filter(|it| !it.driver.is_external && it.pose().at.x > CAR.x).count() as u64
+            + world.counts().left
+    };
+    assert_eq!((passed(&world), world.counters().stuck), (0, 0), "nobody could go round");
+    world.command(Command::Remove(first)).expect("it is there");
+    (0..3000).for_each(|_| world.step());
+    assert!(passed(&world) > 60, "{}", passed(&world));
+    let counters = world.counters();
+    assert_eq!((counters.collisions, counters.overlaps, counters.stuck), (0, 0, 0));
+}
+
+#[test]
+fn what_stands_in_lanes_is_part_of_a_saved_world() {
+    let mut one = world("motorway_2_lanes.osm", 900.0, 6, 1);
+    put(&mut one, CAR);
+    (0..900).for_each(|_| one.step());
+    let mut other = world("motorway_2_lanes.osm", 900.0, 6, 1);
+    other.restore(&one.save().expect("there is memory")).expect("it is the same world");
+    for _ in 0..600 {
+        one.step();
+        other.step();
+    }
+    assert_eq!(one.state_hash(), other.state_hash());
+}
