@@ -101,7 +101,9 @@ fn skewed(
         let draw = random.uniform(subject, Purpose::Destination, 0);
         0.1 + draw * draw
     };
-    let all: f64 = (0..origins.len()).map(|it| weight(it as u32)).sum();
+    let leads_anywhere = |from: i64| destinations.iter().any(|it| *it != from && leads(from, *it));
+    let used = origins.iter().enumerate().filter(|(_, from)| leads_anywhere(**from));
+    let all: f64 = used.map(|(number, _)| weight(number as u32)).sum();
     let mut rows = Vec::new();
     for (number, from) in origins.iter().enumerate() {
         let to_others = |it: &usize| destinations[*it] != *from && leads(*from, destinations[*it]);

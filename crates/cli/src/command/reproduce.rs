@@ -9,6 +9,7 @@ use laneweave::Fault;
 use laneweave::folder::Claim;
 use laneweave::output::write_whole;
 use laneweave::record::SCENARIO;
+use laneweave::scenario::MapOptions;
 use laneweave_studies::experiments::{EXPERIMENTS, Effort, Experiment, Finding, site_rates};
 use laneweave_studies::fit::Request;
 
@@ -60,6 +61,10 @@ impl ReproduceArguments {
         let effort = Effort { seeds: self.seeds.unwrap_or(usual.seeds), ..usual };
         if !self.site.is_empty() {
             return self.at_site(&effort);
+        }
+        if self.options.options() != MapOptions::default() {
+            let what = "--origin, --law and --max-map-size say how the map of a recorded site is read";
+            return Err(Fault::new("reproduce", what, "leave them out, or name the site with --site"));
         }
         let is_asked = |it: &&Experiment| self.experiments.iter().any(|name| name == it.name || name == ALL);
         let folder = self.folder()?;

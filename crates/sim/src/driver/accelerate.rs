@@ -296,7 +296,7 @@ fn reacting_to_more(
     before_closure(scene, clock, spot, wish, obstacle)
 }
 
-/// The acceleration of a driver who may have to stop before a closed lanelet, and the nearest end of its lane.
+/// The acceleration of a driver who may have to stop before a closed stretch, and the nearest end of its lane.
 #[inline(never)]
 fn before_closure(
     scene: &Scene,

@@ -34,7 +34,7 @@ const REACTS_WITHIN: f64 = 400.0;
 /// A vehicle that stands this long is stuck, unless what it waits for is sure to end [s].
 pub(super) const STUCK_AFTER: f32 = 300.0;
 /// Whoever had to wait has this much time to drive off when it no longer has to [s].
-const GRACE: f32 = 30.0;
+const GRACE: f32 = 10.0;
 
 /// Considers both sides at a driver's turn. `hints` are the entries beside the last driver of the lane who had its
 /// turn.

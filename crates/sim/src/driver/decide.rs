@@ -105,7 +105,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     let there = forced(scene.viewpoint_at(scene.viewpoint(spot), counterpart.chain, counterpart.x));
     let is_forced =
         there > style.safety.max_deceleration && there > forced(scene.viewpoint(spot)) + MUCH_HARDER;
-    // A user closed that lane in the meantime.
+    // That lane was closed in the meantime.
     if is_forced || scene.is_closed(counterpart.chain, counterpart.x) {
         let ask = Ask::Abort;
         outbox.requests.push(Request {

@@ -30,8 +30,8 @@ enum Blocker {
 }
 
 /// Whether the vehicle at `spot`, which has stood for long, is stuck. It is not stuck if the first of the vehicles
-/// that block it moves, is about to move, waits at a light that was green recently, or is driven by a user. Vehicles
-/// that wait for each other are all stuck.
+/// that block it moves, is about to move, waits at a light that was green recently, or is driven by a user and could
+/// not be passed. Vehicles that wait for each other are all stuck.
 #[inline(never)]
 pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
     let mut at = spot;
@@ -57,7 +57,7 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
 fn could_go_round(scene: &Scene, at: Spot, clock: Clock) -> bool {
     let external = scene.externals.of(scene.motion(at).id);
     let since = external.and_then(|it| it.passable_since);
-    since.is_some_and(|it| clock.since(it) >= f64::from(STUCK_AFTER))
+    since.is_some_and(|it| it <= clock.step && clock.since(it) >= f64::from(STUCK_AFTER))
 }
 
 /// Whether the vehicle at `at`, which waits at or in the junction that was surveyed, waits for a vehicle that a user

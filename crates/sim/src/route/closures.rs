@@ -28,6 +28,8 @@ pub(crate) struct Closures {
     /// Sorted.
     closed: Vec<LaneletIndex>,
     standing: Vec<Standing>,
+    /// Whether drivers can go round each of them.
+    passable: Vec<bool>,
     /// For each chain the closed stretches, in order, and whether it leads to one soon. Empty if there is none.
     of_chain: Vec<(Vec<Stretch>, bool)>,
 }
@@ -61,7 +63,7 @@ impl Closures {
             return Closures::default();
         }
         let of_chain = vec![(Vec::new(), false); network.chains.len()];
-        let mut closures = Closures { closed, standing, of_chain };
+        let mut closures = Closures { closed, standing, passable: Vec::new(), of_chain };
         for at in 0..closures.closed.len() {
             let lanelet = closures.closed[at];
             let Position { chain, x } = network.start_of(lanelet);
@@ -78,18 +80,11 @@ impl Closures {
         for at in 0..closures.standing.len() {
             let it = closures.standing[at];
             let open = lanelets.lanes_round(network, &it, &closures.standing);
+            closures.passable.push(open != [None; 2]);
             if let Some(lanes) = open.iter().flatten().map(|it| it.0).min() {
-                let [rear, front] = it.reach;
-                closures.add(
-                    network,
-                    it.chain,
-                    Stretch {
-                        reach: [it.kept(lanes), front],
-                        leaves_until: rear - Standing::LEAST_ROOM,
-                        known_from: Standing::SEEN,
-                        open,
-                    },
-                );
+                let ([rear, front], known_from) = (it.reach, Standing::SEEN);
+                let (reach, leaves_until) = ([it.kept(lanes), front], rear - Standing::LEAST_ROOM);
+                closures.add(network, it.chain, Stretch { reach, leaves_until, known_from, open });
             }
         }
         let order = |a: &Stretch, b: &Stretch| a.reach[0].total_cmp(&b.reach[0]);
@@ -111,18 +106,26 @@ impl Closures {
     }
 
     /// The open lanes beside something that stands in a lane, where all this is `standing`; none where drivers cannot
-    /// go round it.
+    /// go round it, or would wait for a gap in a junction.
     fn lanes_round(&self, network: &Network, it: &Standing, standing: &[Standing]) -> OpenLanes {
-        let Standing { chain, reach: [rear, front] } = *it;
+        let (chain, [rear, front]) = (it.chain, it.reach.map(|x| x.max(0.0)));
         let is_free = |at: &Position| {
-            let [from, until] = [at.x - Standing::ROOM_BEFORE, at.x + front - rear + Standing::ROOM_BEYOND];
-            let stands_there =
-                |other: &Standing| other.chain == at.chain && other.reach[0] < until && other.reach[1] > from;
-            !self.cover(at.chain, at.x) && !standing.iter().any(stands_there)
+            let reach = [at.x - Standing::ROOM_BEFORE, at.x + front - rear + Standing::ROOM_BEYOND];
+            let stands_there = |it: &Standing| it.chain == at.chain && overlap(it.reach, reach);
+            let is_closed = self.on(at.chain).iter().any(|it| overlap(it.reach, reach));
+            !is_closed && !standing.iter().any(stands_there)
         };
-        let before = back(network, Position::new(chain, rear), Closures::LOOKED_AT[1]);
+        let junctions = &network.junctions;
+        let waits = [rear - Standing::ROOM_BEFORE, rear];
+        let mut zones = junctions.on(chain).crossings.iter().map(|it| junctions.reach(*it));
+        if zones.any(|it| overlap([it.start, it.end], waits)) {
+            return [None; 2];
+        }
+        // Where several lanes join before, the place on its own lane counts.
+        let before = back(network, Position::new(chain, rear), Closures::LOOKED_AT[1])
+            .unwrap_or(Position::new(chain, (rear - Closures::LOOKED_AT[1]).max(0.0)));
         Side::BOTH.map(|side| {
-            before.and_then(|it| network.chain(it.chain).beside(side, it.x))?;
+            network.chain(before.chain).beside(side, before.x)?;
             next_lane(network, Position::new(chain, rear), side, is_free)
         })
     }
@@ -137,13 +140,13 @@ impl Closures {
         &self.closed
     }
 
-    /// Whether no lanelet is closed.
+    /// Whether no lanelet is closed, and nothing stands in a lane.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.of_chain.is_empty()
     }
 
-    /// Whether vehicles on `chain` may have to brake for a closed lanelet.
+    /// Whether vehicles on `chain` may have to brake for a closed stretch.
     #[inline]
     pub(crate) fn are_near(&self, chain: ChainIndex) -> bool {
         self.of_chain.get(chain.at()).is_some_and(|it| it.1)
@@ -160,11 +163,10 @@ impl Closures {
         self.on(chain).iter().any(|it| (it.reach[0]..it.reach[1]).contains(&x))
     }
 
-    /// Whether something stands with its front at `front` [m], and drivers can go round it.
-    pub(crate) fn close_behind(&self, chain: ChainIndex, front: f64) -> bool {
-        self.standing
-            .iter()
-            .any(|it| it.chain == chain && it.reach[1] == front && self.cover(chain, it.reach[0]))
+    /// Whether something stands with its front at this place, and drivers can go round it.
+    pub(crate) fn can_be_passed(&self, front: Position) -> bool {
+        let is_there = |it: &Standing| it.chain == front.chain && it.reach[1] == front.x;
+        self.standing.iter().zip(&self.passable).any(|(it, is_passable)| is_there(it) && *is_passable)
     }
 
     /// The open lanes beside a closed lanelet that begins at `start`.
@@ -202,8 +204,7 @@ impl Closures {
 }
 
 impl Standing {
-    /// Road that drivers keep behind it, on which they steer out of its lane, and that it keeps free beside it [m]
-    /// (ours).
+    /// Road that drivers keep behind it, to steer out of its lane [m] (ours).
     const ROOM: f64 = 12.0;
     /// A lane beside it is open if nothing stands there so far before its rear and beyond its front [m] (ours).
     pub(crate) const ROOM_BEFORE: f64 = Standing::ROOM + Standing::ROOM_FOR_A_LANE;
@@ -334,6 +335,11 @@ fn next_lane(
     };
     let mut lanes = std::iter::successors(beside(&at), beside).zip(1..);
     lanes.find(|(at, _)| is_open(at)).map(|(at, count)| (count, at))
+}
+
+/// Whether two stretches have a part in common.
+fn overlap([from, until]: [f64; 2], [other_from, other_until]: [f64; 2]) -> bool {
+    from < other_until && other_from < until
 }
 
 /// The place `distance` [m] before `at`, on its chain or on the only one before it.

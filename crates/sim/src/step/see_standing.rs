@@ -1,15 +1,16 @@
 //! Drivers see what stands in a lane from afar, as they see a closed lane: a vehicle that a user drives, and that
 //! stands although its driver would go.
 
-use laneweave_network::Position;
+use laneweave_network::{ChainIndex, Position};
 
 use crate::route::closures::Standing;
 use crate::route::roads::Roads;
-use crate::state::control::{Control, Longitudinal};
 use crate::state::externals::External;
+use crate::state::lane::VehicleId;
 use crate::state::traffic::Traffic;
 use crate::step::change_roads::close;
-use crate::step::externals::PATIENCE;
+use crate::step::externals::{idle_for, is_held};
+use crate::view::scene::Spot;
 
 /// Lets drivers know what stands in lanes now.
 pub(crate) fn see_standing(roads: &mut Roads, traffic: &mut Traffic) {
@@ -19,42 +20,69 @@ pub(crate) fn see_standing(roads: &mut Roads, traffic: &mut Traffic) {
     let standing = standing(traffic);
     if standing != roads.navigator().closures().standing() {
         close(roads, traffic, |roads| roads.note_standing(standing));
-        note_passable(roads, traffic);
     }
+    note_passable(roads, traffic);
 }
 
 /// Notes since when drivers can go round what stands in lanes.
 fn note_passable(roads: &Roads, traffic: &mut Traffic) {
     let (closures, step) = (roads.navigator().closures(), traffic.clock().step);
-    let mut externals = std::mem::take(traffic.externals_mut());
-    for external in externals.all_mut() {
-        let Position { chain, x } = external.at;
-        let is_passable = closures.close_behind(chain, x);
+    for external in traffic.externals_mut().all_mut() {
+        let is_passable = closures.can_be_passed(external.at);
         external.passable_since = is_passable.then_some(external.passable_since.unwrap_or(step));
     }
-    *traffic.externals_mut() = externals;
 }
 
 /// What stands in lanes. A recorded vehicle goes on as it was recorded.
 pub(super) fn standing(traffic: &Traffic) -> Vec<Standing> {
-    let longest = traffic.clock().steps(PATIENCE);
-    let stands = |it: &&External| !it.is_recorded && it.idle >= if is_held(it) { 1 } else { longest };
-    let of = |external: &External| {
-        let main = external.off_road().is_none().then(|| {
-            let lane = traffic.lane(external.at.chain);
-            Some((external.at.chain, &lane.motions()[lane.find(external.id, external.at.x)?]))
-        });
-        let touched = external.obstacles.iter().filter_map(|at| {
-            let lane = traffic.lane(at.chain);
-            Some((at.chain, &lane.motions()[lane.find_obstacle(external.id, at.x)?]))
-        });
-        let all = main.flatten().into_iter().chain(touched);
-        all.map(|(chain, it)| Standing { chain, reach: [it.rear(), it.x] }).collect::<Vec<_>>()
+    let externals = traffic.externals().all();
+    let stands = |it: &External| !it.is_recorded && it.idle >= idle_for(it, traffic.clock());
+    let mut found: Vec<bool> = externals.iter().map(stands).collect();
+    // Whoever is held right behind something that stands, such as the next one of a pile-up, stands there, too.
+    let is_behind = |it: &External, found: &[bool]| {
+        is_held(it)
+            && leader(traffic, it).is_some_and(|id| {
+                let ahead = externals.binary_search_by_key(&id, |it| it.id);
+                ahead.is_ok_and(|at| found[at])
+            })
     };
-    traffic.externals().all().iter().filter(stands).flat_map(of).collect()
+    while let Some(at) = (0..found.len()).find(|at| !found[*at] && is_behind(&externals[*at], &found)) {
+        found[at] = true;
+    }
+    externals.iter().zip(found).filter(|it| it.1).flat_map(|it| reaches(traffic, it.0)).collect()
 }
 
-/// Whether its user lets it stand, whatever is ahead.
-fn is_held(external: &External) -> bool {
-    matches!(external.control, Control::Drive { longitudinal: Longitudinal::Speed(0.0), .. })
+/// What an external vehicle covers of lanes.
+fn reaches(traffic: &Traffic, external: &External) -> Vec<Standing> {
+    let of = |chain: ChainIndex, index: usize| {
+        let it = &traffic.lane(chain).motions()[index];
+        Standing { chain, reach: [it.rear(), it.x] }
+    };
+    let mut all = Vec::new();
+    if let Some(Spot { chain, index }) = spot(traffic, external) {
+        all.push(of(chain, index));
+        if let Some(there) = traffic.lane(chain).lane_change_states()[index].counterpart {
+            all.extend(traffic.lane(there.chain).find(external.id, there.x).map(|it| of(there.chain, it)));
+        }
+    }
+    let touched = external.obstacles.iter().filter_map(|at| {
+        let index = traffic.lane(at.chain).find_obstacle(external.id, at.x)?;
+        Some(of(at.chain, index))
+    });
+    all.extend(touched);
+    all
+}
+
+/// The main entry of an external vehicle, if it is in a lane.
+fn spot(traffic: &Traffic, external: &External) -> Option<Spot> {
+    let Position { chain, x } = external.at;
+    let index = traffic.lane(chain).find(external.id, x).filter(|_| external.off_road().is_none())?;
+    Some(Spot { chain, index })
+}
+
+/// The vehicle ahead of an external vehicle that stands, on its lane.
+fn leader(traffic: &Traffic, external: &External) -> Option<VehicleId> {
+    let Spot { chain, index } = spot(traffic, external)?;
+    let motions = traffic.lane(chain).motions();
+    (motions[index].speed == 0.0).then(|| motions.get(index + 1).map(|it| it.id)).flatten()
 }

@@ -175,14 +175,14 @@ impl<'a> Scene<'a> {
         self.network.chain(chain).takes(x, is_long) && !self.is_closed(chain, x)
     }
 
-    /// Whether a user closed `chain` at `x` [m].
+    /// Whether `chain` is closed at `x` [m]: by a user, or by something that stands there.
     #[inline]
     pub(crate) fn is_closed(&self, chain: ChainIndex, x: f64) -> bool {
         let closures = self.navigator.closures();
         !closures.is_empty() && closures.cover(chain, x)
     }
 
-    /// Distance to the next closed lanelet ahead of a vehicle, if it may have to brake for it [m].
+    /// Distance to the next closed stretch ahead of a vehicle, if it may have to brake for it [m].
     #[inline]
     pub(crate) fn closure_ahead(&self, from: Viewpoint) -> Option<f64> {
         /// Drivers brake within this distance [m].

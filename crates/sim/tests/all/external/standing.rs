@@ -77,6 +77,15 @@ fn whoever_passes_a_vehicle_that_has_broken_down_loses_a_few_seconds() {
 }
 
 #[test]
+fn a_pile_up_is_passed_as_one_vehicle_is() {
+    let pile: Vec<Broken> = (0..5).map(|it| Broken { x: CAR.x - 7.0 * f64::from(it), ..CAR }).collect();
+    for (broken, seed) in [(pile, 7), (vec![CAR, Broken { x: CAR.x - 20.0, ..CAR }], 8)] {
+        let seconds = lost("motorway_2_lanes.osm", 400.0, seed, &broken);
+        assert!(seconds < 5.0, "{} vehicles: {seconds} s", broken.len());
+    }
+}
+
+#[test]
 fn drivers_change_two_lanes_before_two_that_are_blocked_side_by_side() {
     let far = Broken { lane: 1, x: 2070.0, class: Class::Truck };
     for (broken, seed) in [([CAR, far], 1), ([Broken { lane: 2, ..CAR }, far], 2)] {
@@ -121,4 +130,15 @@ fn what_stands_in_lanes_is_part_of_a_saved_world() {
         other.step();
     }
     assert_eq!(one.state_hash(), other.state_hash());
+}
+
+#[test]
+fn a_lanelet_that_is_closed_beside_it_leaves_no_way_round() {
+    let mut world = world("motorway_2_lanes.osm", 500.0, 9, 1);
+    put(&mut world, CAR);
+    let beside = across(&world, CAR.x)[1];
+    world.command(Command::CloseLanelet { lanelet: beside, is_closed: true }).expect("it is possible");
+    (0..6000).for_each(|_| world.step());
+    // The first one before the closed lanelet waits for a gap in the queue that stands beside it.
+    assert!(world.counters().stuck <= 1, "nobody could go round: {}", world.counters().stuck);
 }

@@ -30,7 +30,7 @@ impl Design {
     /// Whether the recorded rate lies in the interval of a model in every class with traffic, and there is one.
     pub(crate) fn is_followed_by(&self, model: usize) -> bool {
         let mut known = self.classes().filter(|it| it.recorded.is_some()).peekable();
-        known.peek().is_some() && known.all(|it| !it.simulated[model].is_missed())
+        known.peek().is_some() && known.all(|it| it.simulated[model].recorded_is == "inside")
     }
 
     /// A curve of what was recorded, and one of each of the `judged` models with intervals.

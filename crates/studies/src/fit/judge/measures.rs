@@ -101,7 +101,7 @@ fn of_changes(tally: &Tally) -> [Measured; 5] {
 }
 
 /// P(accept | gap): the share of the gaps of each length that drivers took, at a look each second in the ten seconds
-/// before they went. Who never changed lanes is not asked: whether it wanted to is not seen.
+/// before their changes began. Who never changed lanes is not asked: whether it wanted to is not seen.
 fn of_offered_gaps(tally: &Tally) -> impl Iterator<Item = Measured> {
     let [short, long] = OFFERED;
     let names = [

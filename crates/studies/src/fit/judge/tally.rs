@@ -21,7 +21,8 @@ const INTERVAL: f64 = 30.0;
 pub(super) const CLASSES: usize = 3;
 /// A driver is looked at this time before it crosses the line [s].
 const BEFORE: f64 = 1.5;
-/// Gaps count as offered to a driver that it had beside it at most so long before, at a look each second [s] (ours).
+/// Gaps count as offered to a driver that it had beside it at most so long before its change began, at a look each
+/// second [s] (ours).
 const LOOKS: u32 = 10;
 /// Bounds of the classes of offered gaps: to the new leader and to the new follower together [m] (ours).
 pub(super) const OFFERED: [f64; 2] = [30.0, 60.0];
@@ -107,7 +108,7 @@ impl Tally {
         }
         let changes: Vec<&LaneChange> = changes.iter().collect();
         self.add_motion(&matched, &changes, scope);
-        self.add_situations(&matched, (&all, &changes), scope)
+        self.add_situations(&matched, (&all, &extents), &within, scope)
     }
 
     /// The lane of a lanelet.
@@ -170,7 +171,8 @@ impl Tally {
     fn add_situations(
         &mut self,
         matched: &Matched,
-        (all, within): (&[LaneChange], &[&LaneChange]),
+        (all, extents): (&[LaneChange], &[Extent]),
+        within: &[usize],
         scope: &Scope,
     ) -> Result<(), Fault> {
         let styles = [scope.style.clone()];
@@ -178,20 +180,25 @@ impl Tally {
         let replay = Replay::new(matched, all, &scope.site.navigator, &styles, by_speeds);
         let wrong = |error| Fault::new(&scope.style.name, error, "choose another style");
         let replay = replay.map_err(wrong)?.without_destinations();
-        for change in within {
-            let looks = (0..LOOKS).map_while(|earlier| {
-                let time = change.time - BEFORE - f64::from(earlier);
+        for at in within {
+            let change = &all[*at];
+            let look = |time: f64| {
                 let frame = replay.frame((time / matched.recording.step).round() as i64);
                 frame.perceive(change.vehicle, change.side).map(|it| Offer::of(&it))
-            });
-            for (earlier, offer) in looks.enumerate() {
+            };
+            if let Some(offer) = look(change.time - BEFORE) {
+                self.gains.push(offer.gain);
+                self.gaps.iter_mut().zip(offer.gaps).for_each(|(all, gap)| all.push(gap));
+            }
+            // Before, the vehicle was in another lane.
+            let earlier =
+                all.iter().zip(extents).filter(|it| it.0.track == change.track && it.0.time < change.time);
+            let since = earlier.map(|it| it.1.ended).fold(f64::NEG_INFINITY, f64::max);
+            let times = (0..LOOKS).map(|it| extents[*at].began - f64::from(it));
+            for (number, offer) in times.take_while(|it| *it >= since).map_while(look).enumerate() {
                 let [offered, taken] = &mut self.offered[offer.class()];
                 *offered += 1;
-                if earlier == 0 {
-                    *taken += 1;
-                    self.gains.push(offer.gain);
-                    self.gaps.iter_mut().zip(offer.gaps).for_each(|(all, gap)| all.push(gap));
-                }
+                *taken += u32::from(number == 0);
             }
         }
         Ok(())
