@@ -104,7 +104,7 @@ fn the_share_of_simulated_drivers_who_accept_a_gap_comes_back_at_its_quartiles()
     if !size().pick(false, true) {
         return;
     }
-    let fit = fitted(2, 600.0, 1);
+    let fit = fitted(3, 600.0, 1);
     for (kind, gap) in fit.gaps.iter().enumerate() {
         assert!(CriticalGap::is_identified(gap), "{gap:?}");
         for (share, z) in [(0.25, -0.674_490), (0.5, 0.0), (0.75, 0.674_490)] {
