@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use laneweave_sim::{Command, Control, Longitudinal, NewVehicle, VehicleId, World};
+use laneweave_sim::{Command, Control, NewVehicle, VehicleId, World};
 use laneweave_study::seconds;
 
 use crate::fault::Fault;
@@ -223,9 +223,8 @@ impl Planned {
     fn put(&self, world: &mut World) -> Option<VehicleId> {
         /// It waits so long [s] (ours): in a jam nobody leaves so much room.
         const WAITS: f64 = 60.0;
-        let stands = matches!(self.control, Control::Drive { longitudinal: Longitudinal::Speed(0.0), .. });
         let waits = world.clock().step < self.from_step + world.clock().steps(WAITS);
-        if stands && waits && !world.has_room_behind(&self.vehicle) {
+        if self.control.holds_still() && waits && !world.has_room_behind(&self.vehicle) {
             return None;
         }
         let id = world.command(Command::Insert(self.vehicle.clone())).ok().flatten()?;

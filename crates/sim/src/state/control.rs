@@ -85,6 +85,11 @@ impl Control {
         }
     }
 
+    /// Whether the vehicle is held at a speed of 0, whatever is ahead of it.
+    pub fn holds_still(self) -> bool {
+        matches!(self, Control::Drive { longitudinal: Longitudinal::Speed(0.0), .. })
+    }
+
     /// Whether a user drives the vehicle in any way.
     pub fn is_external(self) -> bool {
         self != Control::DRIVER

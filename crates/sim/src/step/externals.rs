@@ -4,8 +4,7 @@
 use laneweave_network::{ChainIndex, Network, Position};
 
 use crate::driver::plan::{Controlled, Told};
-use crate::state::clock::Clock;
-use crate::state::control::{Control, Lateral, Longitudinal};
+use crate::state::control::{Control, Lateral};
 use crate::state::externals::External;
 use crate::state::lane::{Counterpart, Lane, Phase, VehicleId};
 use crate::state::traffic::Traffic;
@@ -14,17 +13,7 @@ use crate::view::scene::Spot;
 
 /// An external vehicle that stands this long although its driver would go lets others go first, until it moves [s]
 /// (ours).
-const PATIENCE: f64 = 2.0;
-
-/// Whether its user lets a vehicle stand, whatever is ahead.
-pub(super) fn is_held(external: &External) -> bool {
-    matches!(external.control, Control::Drive { longitudinal: Longitudinal::Speed(0.0), .. })
-}
-
-/// Steps after which a vehicle that stands although its driver would go counts as idle until it moves.
-pub(super) fn idle_for(external: &External, clock: Clock) -> u32 {
-    if is_held(external) { 1 } else { clock.steps(PATIENCE) }
-}
+pub(super) const PATIENCE: f64 = 2.0;
 
 /// Hands the controls of external vehicles to the plans of their lanes.
 pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
@@ -39,7 +28,7 @@ pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
     }
     for external in externals.all() {
         let External { id, control, at, .. } = external;
-        let gives_way = external.idle >= idle_for(external, traffic.clock());
+        let gives_way = external.idle >= traffic.clock().steps(PATIENCE);
         let mut tell = |chain: ChainIndex, index: usize, told| {
             work.plans[chain.at()].controls.push(Controlled { index: index as u32, told, gives_way });
         };
@@ -67,11 +56,10 @@ pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
 pub(crate) fn follow_externals(network: &Network, traffic: &mut Traffic, work: &mut Work) {
     let idle = &mut work.outbox().idle;
     idle.sort_unstable();
-    let clock = traffic.clock();
+    let longest = traffic.clock().steps(PATIENCE);
     let mut externals = std::mem::take(traffic.externals_mut());
     externals.retain(|external| {
         let is_idle = idle.binary_search(&external.id).is_ok();
-        let longest = idle_for(external, clock);
         if let Some(body) = &external.body {
             external.count_idle(is_idle, body.speed > 0.0, longest);
             return true;

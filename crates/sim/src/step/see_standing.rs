@@ -9,7 +9,7 @@ use crate::state::externals::External;
 use crate::state::lane::VehicleId;
 use crate::state::traffic::Traffic;
 use crate::step::change_roads::close;
-use crate::step::externals::{idle_for, is_held};
+use crate::step::externals::PATIENCE;
 use crate::view::scene::Spot;
 
 /// Lets drivers know what stands in lanes now.
@@ -36,11 +36,14 @@ fn note_passable(roads: &Roads, traffic: &mut Traffic) {
 /// What stands in lanes. A recorded vehicle goes on as it was recorded.
 pub(super) fn standing(traffic: &Traffic) -> Vec<Standing> {
     let externals = traffic.externals().all();
-    let stands = |it: &External| !it.is_recorded && it.idle >= idle_for(it, traffic.clock());
+    let longest = traffic.clock().steps(PATIENCE);
+    let idle_for = |it: &External| if it.control.holds_still() { 1 } else { longest };
+    let stands = |it: &External| !it.is_recorded && it.idle >= idle_for(it);
     let mut found: Vec<bool> = externals.iter().map(stands).collect();
-    // Whoever is held right behind something that stands, such as the next one of a pile-up, stands there, too.
+    // Whoever is held behind something that stands, such as the next one of a pile-up, stands there, too: its driver
+    // would not go.
     let is_behind = |it: &External, found: &[bool]| {
-        is_held(it)
+        it.control.holds_still()
             && leader(traffic, it).is_some_and(|id| {
                 let ahead = externals.binary_search_by_key(&id, |it| it.id);
                 ahead.is_ok_and(|at| found[at])
