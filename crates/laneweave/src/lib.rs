@@ -64,8 +64,8 @@ pub mod recordings {
 /// Scenarios as plain data, and what they are read from.
 pub mod scenario {
     pub use laneweave_scenario::scenario::{
-        Basis, Demand, DrivingSide, External, Guidance, Headways, Law, MadeSignals, MapOptions, OdRow,
-        Origin, Output, Replay, Run, Scenario, Signal, SignalPhase, SumoFile, TableFormat, Turns,
+        Basis, Demand, DrivingSide, External, Guidance, Headways, Law, MadeSignals, MapOptions, Obstacle,
+        OdRow, Origin, Output, Replay, Run, Scenario, Signal, SignalPhase, SumoFile, TableFormat, Turns,
         VehiclesPerHour, driven, mixture, open_map, read_map,
     };
 }
@@ -75,8 +75,9 @@ pub mod scenario {
 pub mod sim {
     pub use laneweave_sim::{
         Account, Across, Act, Clock, Command, Commanded, Counters, Counts, Destination, DriverState,
-        FIRST_INSERTED, Goal, InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator, Place, Places,
-        Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle, Viewpoint, perceive,
+        FIRST_INSERTED, Goal, InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator, Obstacle, Place,
+        Places, Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle, Viewpoint,
+        perceive,
     };
 }
 

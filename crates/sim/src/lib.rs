@@ -51,7 +51,7 @@ pub use route::waypoint::Waypoint;
 pub use state::clock::Clock;
 pub use state::command::{Command, Commanded, NewVehicle, Target};
 pub use state::control::{Control, Lateral, Longitudinal};
-pub use state::externals::FIRST_INSERTED;
+pub use state::externals::{FIRST_INSERTED, FIRST_OBSTACLE};
 pub use state::goal::{Destination, Goal};
 pub use state::lane::{
     Counterpart, DriverState, Kinematics, Lane, LaneChangeKind, LaneChangeState, Phase, VehicleId,
@@ -64,6 +64,7 @@ pub use state::vehicle::{Body, Class, Fleet};
 pub use step::checkpoint::CheckpointError;
 pub use step::columns::Columns;
 pub use step::command_error::CommandError;
+pub use step::put_obstacle::Obstacle;
 pub use step::recorded::{RecordedPose, RecordedVehicle};
 pub use step::seal::{sealed, unsealed};
 pub use step::vehicle::Vehicle;

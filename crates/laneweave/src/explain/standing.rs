@@ -1,12 +1,22 @@
 //! Why a vehicle stands, in words.
 
 use laneweave_network::Network;
-use laneweave_sim::{JunctionHindrance, StandsFor, VehicleId};
+use laneweave_sim::{FIRST_OBSTACLE, JunctionHindrance, StandsFor, VehicleId};
+
+/// A vehicle, or an obstacle by its place in the scenario.
+fn named(id: VehicleId) -> String {
+    match id.checked_sub(FIRST_OBSTACLE) {
+        Some(number) => format!("obstacle {}", number + 1),
+        None => format!("vehicle {id}"),
+    }
+}
 
 /// The reason, as one sentence.
 pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
     match it {
-        StandsFor::Leader { vehicle, gap } => format!("it stands behind vehicle {vehicle}, {gap:.1} m ahead"),
+        StandsFor::Leader { vehicle, gap } => {
+            format!("it stands behind {}, {gap:.1} m ahead", named(*vehicle))
+        }
         StandsFor::Light(id) => format!("it waits at traffic light {id}"),
         StandsFor::StopSign => "it stops at a stop sign".into(),
         StandsFor::After(others) => format!("it has its reservation, and drives after {}", vehicles(others)),
@@ -15,7 +25,7 @@ pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
             format!("the last place for a route-driven lane change is {distance:.1} m ahead")
         }
         StandsFor::Obstacle { vehicle, gap } => {
-            format!("vehicle {vehicle} stands in its lane {gap:.1} m ahead: it looks for a gap beside it")
+            format!("{} stands in its lane {gap:.1} m ahead: it looks for a gap beside it", named(*vehicle))
         }
         StandsFor::LetsIn(distance) => {
             format!("it yields to a vehicle that changes lanes {distance:.1} m ahead")

@@ -2,7 +2,7 @@
 
 use laneweave_network::Position;
 use laneweave_scenario::Fault;
-use laneweave_sim::{Columns, Intention, Scene, Vehicle, VehicleId};
+use laneweave_sim::{Columns, Intention, Obstacle, Scene, Vehicle, VehicleId};
 
 use super::{Simulation, VehicleState};
 
@@ -25,6 +25,11 @@ impl Simulation {
     /// them after every step.
     pub fn views(&self) -> impl Iterator<Item = Vehicle<'_>> {
         self.world().vehicles()
+    }
+
+    /// The obstacles on the road, with their ids.
+    pub fn obstacles(&self) -> impl Iterator<Item = (VehicleId, Obstacle)> + '_ {
+        self.world().obstacles()
     }
 
     /// The vehicle with this id, without a copy. `None` if it is not on the road.

@@ -12,16 +12,17 @@ pub struct Crossing {
 }
 
 impl Crossing {
-    /// Shortest distance over which a car can change lanes [m]; ours.
-    const LEAST_WAY: f64 = 25.0;
+    /// Distance over which a slow car changes lanes [m]: the sharpest bend of this path over 3.5 m has a radius of 7 m,
+    /// which is near that of a full lock; ours.
+    const LEAST_WAY: f64 = 12.0;
     /// The same for a long vehicle, in vehicle lengths; ours.
-    const LENGTHS: f64 = 3.0;
-    /// Rate of the change at standstill, as a share of the usual rate; ours.
-    const SLOWEST: f64 = 0.2;
+    const LENGTHS: f64 = 1.5;
+    /// A slower vehicle does not move sideways [m/s]; ours.
+    const STANDS: f64 = 0.1;
 
-    /// Shortest distance over which the vehicle can change lanes [m].
+    /// Distance over which the vehicle changes lanes while it is slow [m].
     #[inline]
-    fn least_way(self) -> f64 {
+    pub fn least_way(self) -> f64 {
         (Crossing::LENGTHS * self.length).max(Crossing::LEAST_WAY)
     }
 
@@ -31,15 +32,28 @@ impl Crossing {
         (self.speed * self.duration).max(self.least_way())
     }
 
-    /// Rate of the change, 1 for a vehicle that is not slow: for a slow vehicle the distance counts, not the time.
+    /// Rate of the change, 1 for a vehicle that is not slow: for a slow vehicle the distance counts, not the time. A
+    /// vehicle that stands does not move sideways.
     #[inline]
     pub fn pace(self) -> f64 {
-        (self.speed * self.duration / self.least_way()).clamp(Crossing::SLOWEST, 1.0)
+        self.paced(1.0 / self.least_way())
     }
 
-    /// Share of its time by which the change progresses in `dt` [s].
+    /// Share of its time by which the change progresses in `dt` [s], where the road is so short that at least the share
+    /// `per_metre` of the change has to be done on each metre; 0 if it is long.
     #[inline]
-    pub fn progress_in(self, dt: f64) -> f64 {
-        self.pace() * dt / self.duration
+    pub fn progress_in(self, dt: f64, per_metre: f64) -> f64 {
+        self.paced(per_metre.max(1.0 / self.least_way())) * dt / self.duration
+    }
+
+    /// The highest speed at which the share `per_metre` of the change can be done on each metre [m/s].
+    #[inline]
+    pub fn fastest(self, per_metre: f64) -> f64 {
+        (1.0 / (self.duration * per_metre)).max(1.5 * Crossing::STANDS)
+    }
+
+    #[inline]
+    fn paced(self, per_metre: f64) -> f64 {
+        if self.speed < Crossing::STANDS { 0.0 } else { (self.speed * self.duration * per_metre).min(1.0) }
     }
 }

@@ -63,12 +63,38 @@ fn every_lateral_model_goes_from_one_lane_to_the_other_and_crosses_halfway() {
 #[test]
 fn a_slow_vehicle_needs_way_not_time() {
     let car = |speed| Crossing { speed, length: 4.5, duration: DURATION };
-    assert_eq!((car(20.0).way(), car(20.0).pace(), car(20.0).progress_in(0.1)), (80.0, 1.0, 0.1 / DURATION));
-    // 25 m at 5 m/s take 5 s.
-    assert_eq!((car(5.0).way(), car(5.0).pace()), (25.0, 0.8));
-    assert_near(car(5.0).progress_in(1.0), 0.2, 1e-12);
-    assert_eq!(car(0.0).pace(), 0.2);
-    assert_eq!(Crossing { length: 12.0, ..car(0.0) }.way(), 36.0);
+    assert_eq!(
+        (car(20.0).way(), car(20.0).pace(), car(20.0).progress_in(0.1, 0.0)),
+        (80.0, 1.0, 0.1 / DURATION)
+    );
+    // 12 m at 2 m/s take 6 s.
+    assert_eq!((car(2.0).way(), car(2.0).least_way()), (12.0, 12.0));
+    assert_near(car(2.0).pace(), 2.0 / 3.0, 1e-12);
+    assert_near(car(2.0).progress_in(1.0, 0.0), 1.0 / 6.0, 1e-12);
+    assert_eq!(Crossing { length: 12.0, ..car(0.0) }.way(), 18.0);
+}
+
+#[test]
+fn a_vehicle_that_stands_does_not_move_sideways() {
+    let car = |speed| Crossing { speed, length: 4.5, duration: DURATION };
+    for per_metre in [0.0, 0.5, 20.0] {
+        assert_eq!((car(0.0).pace(), car(0.09).progress_in(0.1, per_metre)), (0.0, 0.0));
+    }
+}
+
+#[test]
+fn a_slow_vehicle_with_little_road_is_across_at_its_end() {
+    let (length, duration, dt, road) = (4.5, DURATION, 0.01, 2.0);
+    let (mut progress, mut way) = (0.0, 0.0);
+    while progress < 1.0 {
+        let per_metre = (1.0 - progress) / (road - way);
+        let speed = Crossing { speed: 0.0, length, duration }.fastest(per_metre);
+        progress += Crossing { speed, length, duration }.progress_in(dt, per_metre);
+        way += speed * dt;
+        assert!(way <= 1.01 * road, "{progress} after {way} m");
+    }
+    // It takes as long as any change.
+    assert_near(way / (road / duration), duration, 0.02);
 }
 
 /// T_max of the worked example [s].

@@ -6,6 +6,7 @@ mod external;
 mod headways;
 mod map;
 mod mixture;
+mod obstacle;
 mod origin;
 mod prepare;
 mod replay;
@@ -29,6 +30,7 @@ pub use external::External;
 pub use headways::Headways;
 pub use map::{open_map, read_map};
 pub use mixture::mixture;
+pub use obstacle::Obstacle;
 pub use origin::Origin;
 pub(crate) use prepare::LONGEST;
 pub use prepare::{Prepared, driven, driving, prepare, prepare_on, prepare_playing, prepare_recorded};
@@ -65,6 +67,9 @@ pub struct Scenario {
     /// External vehicles: the scenario puts them on the road, and a program may drive them.
     #[serde(default)]
     pub external: Vec<External>,
+    /// Obstacles that stand on the road for some time.
+    #[serde(default)]
+    pub obstacle: Vec<Obstacle>,
     /// A recording whose vehicles drive as they were recorded, or react.
     #[serde(default)]
     pub replay: Replay,
@@ -334,6 +339,7 @@ impl Scenario {
             made_signals: MadeSignals::default(),
             commands: None,
             external: Vec::new(),
+            obstacle: Vec::new(),
             replay: Replay::default(),
             guidance: Guidance::default(),
             run: Run::default(),

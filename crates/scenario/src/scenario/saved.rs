@@ -73,7 +73,7 @@ impl Prepared {
         let body = unsealed(saved)?;
         let (world, state): (Vec<u8>, State) = postcard::from_bytes(body).map_err(unreadable)?;
         if !state.fits(&self.script.state) {
-            return Err(CheckpointError::Other("external vehicles"));
+            return Err(CheckpointError::Other("external vehicles or obstacles"));
         }
         self.world.restore(&world)?;
         self.script.state = state;

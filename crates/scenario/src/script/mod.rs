@@ -1,9 +1,11 @@
-//! The script of a run: the commands that its scenario gives, and the external vehicles that it puts on the road.
+//! The script of a run: the commands that its scenario gives, and the external vehicles and the obstacles that it puts
+//! on the road.
 //!
 //! A script stands beside the world, has no clock of its own, and gives the commands that are due before each step.
 //! Every loop over a scenario steps through it. The commands that were carried out make the table `commands`, whose
 //! rows are written and read in one place (`row.rs`); a run is repeated from its own table.
 
+mod obstacles;
 mod refused;
 mod row;
 mod state;
@@ -18,12 +20,16 @@ use laneweave_study::seconds;
 use crate::fault::Fault;
 use crate::replay::{Departures, Played, Player};
 use crate::scenario::{External, LONGEST, Origin, Scenario};
+use obstacles::Stage;
 use row::Row;
 pub(crate) use row::first_step_from;
 pub(crate) use state::State;
 
 pub use refused::refused;
 pub use row::{COMMAND_COLUMNS, Written};
+
+/// What comes to stand on the road waits so long for room behind it [s] (ours): in a jam nobody leaves so much.
+const WAITS: f64 = 60.0;
 
 /// What a scenario does to its traffic. It has no clock of its own: what is due follows from that of the world.
 #[derive(Clone, Default)]
@@ -35,6 +41,7 @@ pub struct Script {
     /// The ids of the new vehicles in the file.
     inserts: BTreeSet<VehicleId>,
     externals: Vec<Planned>,
+    obstacles: Vec<obstacles::Planned>,
     /// The recording that is played, if one is.
     player: Option<Arc<Player>>,
     pub(crate) state: State,
@@ -70,8 +77,14 @@ impl Script {
                 Fault::new(origin.place(&["external", &number.to_string(), key]), what, remedy)
             })?);
         }
+        for (number, obstacle) in scenario.obstacle.iter().enumerate() {
+            let planned = obstacles::planned(obstacle, world).map_err(|(key, what, remedy)| {
+                Fault::new(origin.place(&["obstacle", &number.to_string(), key]), what, remedy)
+            })?;
+            script.obstacles.push(planned);
+        }
         script.player = player.map(Arc::new);
-        script.state = State::of(script.externals.len(), script.player.as_ref().map_or(0, |it| it.len()));
+        script.state = script.at_its_start();
         script.with_commands(scenario.commands.as_deref(), world)
     }
 
@@ -86,15 +99,21 @@ impl Script {
     /// The same script at its start, with another seed for the drivers of its recording.
     pub(crate) fn restarted(&self, seed: u64) -> Script {
         let player = self.player.as_ref().map(|it| Arc::new(it.with_seed(seed)));
-        let state = State::of(self.externals.len(), player.as_ref().map_or(0, |it| it.len()));
-        Script { player, state, ..self.clone() }
+        let script = Script { player, ..self.clone() };
+        Script { state: script.at_its_start(), ..script }
     }
 
-    /// The same script, which goes on with the recording of the script `before`, and knows the vehicles that it has
-    /// inserted.
+    fn at_its_start(&self) -> State {
+        let recorded = self.player.as_ref().map_or(0, |it| it.len());
+        State::of(self.externals.len(), self.obstacles.len(), recorded)
+    }
+
+    /// The same script, which goes on with the recording and the obstacles of the script `before`, and knows the
+    /// vehicles that it has inserted.
     #[must_use]
     pub fn after(self, before: &Script) -> Script {
-        Script { state: self.state.after(&before.state), player: before.player.clone(), ..self }
+        let (player, obstacles) = (before.player.clone(), before.obstacles.clone());
+        Script { state: self.state.after(&before.state), player, obstacles, ..self }
     }
 
     fn with_commands(self, path: Option<&Path>, empty: &World) -> Result<Script, Fault> {
@@ -152,6 +171,9 @@ impl Script {
                 *id = planned.put(world);
             }
         }
+        for ((planned, stage), number) in self.obstacles.iter().zip(&mut self.state.obstacles).zip(0..) {
+            *stage = planned.go_on(number, *stage, world);
+        }
         world.step();
         if let Some(player) = &self.player {
             player.come_and_go(&mut self.state.playback, world);
@@ -197,6 +219,8 @@ impl Script {
             let name = planned.name.as_ref().map_or(String::new(), |it| format!(" ({it})"));
             lines.push(format!("external vehicle {number}{name}: its place was never free"));
         }
+        let never = self.state.obstacles.iter().zip(1..).filter(|it| *it.0 == Stage::Ahead);
+        lines.extend(never.map(|it| format!("obstacle {}: its place was never free", it.1)));
         lines
     }
 }
@@ -221,8 +245,6 @@ impl Planned {
     /// Puts the vehicle on the road, if its place is free. One that stands there waits for a while until whoever drives
     /// behind can stop far enough behind it to go round it.
     fn put(&self, world: &mut World) -> Option<VehicleId> {
-        /// It waits so long [s] (ours): in a jam nobody leaves so much room.
-        const WAITS: f64 = 60.0;
         let waits = world.clock().step < self.from_step + world.clock().steps(WAITS);
         if self.control.holds_still() && waits && !world.has_room_behind(&self.vehicle) {
             return None;

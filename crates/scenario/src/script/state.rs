@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use laneweave_sim::{Command, VehicleId, World};
 use serde::{Deserialize, Serialize};
 
+use super::obstacles::Stage;
 use super::row::Row;
 use crate::replay::Playback;
 
@@ -18,6 +19,8 @@ pub(crate) struct State {
     inserted: BTreeMap<VehicleId, VehicleId>,
     /// The id of each external vehicle that was put on the road.
     pub(super) externals: Vec<Option<VehicleId>>,
+    /// What has become of each obstacle.
+    pub(super) obstacles: Vec<Stage>,
     /// What has been played of the recording.
     pub(super) playback: Playback,
     /// Number of refused commands, and the first of them in words.
@@ -26,21 +29,25 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// That of a script with so many external vehicles, and so many parts of a recording, none of which is on the road.
-    pub(super) fn of(externals: usize, recorded: usize) -> State {
+    /// That of a script with so many external vehicles, obstacles and parts of a recording, none of which is on the
+    /// road.
+    pub(super) fn of(externals: usize, obstacles: usize, recorded: usize) -> State {
         let playback = Playback::of(recorded);
-        State { externals: vec![None; externals], playback, ..State::default() }
+        let obstacles = vec![Stage::Ahead; obstacles];
+        State { externals: vec![None; externals], obstacles, playback, ..State::default() }
     }
 
-    /// Whether it is that of a script with as many external vehicles, and as many parts of a recording.
+    /// Whether it is that of a script with as many external vehicles, obstacles and parts of a recording.
     pub(crate) fn fits(&self, other: &State) -> bool {
-        let [own, others] = [self, other].map(|it| [it.externals.len(), it.playback.len()]);
+        let parts = |it: &State| [it.externals.len(), it.obstacles.len(), it.playback.len()];
+        let [own, others] = [self, other].map(parts);
         own == others
     }
 
-    /// The same state, which knows the vehicles that were inserted `before`.
+    /// The same state, which knows the vehicles that were inserted `before`, and what stands on the road.
     pub(super) fn after(self, before: &State) -> State {
-        State { inserted: before.inserted.clone(), playback: before.playback.clone(), ..self }
+        let State { inserted, obstacles, playback, .. } = before.clone();
+        State { inserted, obstacles, playback, ..self }
     }
 
     /// Gives the command of `row`, in a file with these new vehicles.

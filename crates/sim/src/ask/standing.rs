@@ -78,7 +78,7 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let leader = leader.map(|(it, spot)| (it.gap, scene.motion(spot)));
     let is_there = |it: f64| (motion.x + it - lane_change.last_place).abs() < 1.0;
     let is_passable = |id| scene.externals.of(id).is_some_and(|it| it.passable_since.is_some());
-    let waits_before_it = scene.closure_ahead(from).is_some_and(is_there);
+    let waits_before_it = scene.closure_ahead(from).is_some_and(|it| is_there(it.ahead));
     let obstacle = leader.filter(|(_, it)| waits_before_it && is_passable(it.id));
     let leader = leader.map(|(gap, it)| (gap, StandsFor::Leader { vehicle: it.id, gap }));
     let stop = junction.stop.map(|it| (it, before_a_junction(world, &scene, spot, it)));

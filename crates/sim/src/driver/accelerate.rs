@@ -11,10 +11,12 @@ use crate::driver::last_place::{before_the_last_place, kept_room, within_window}
 use crate::driver::me::pace;
 use crate::driver::merge;
 use crate::driver::misperception::misperception;
+use crate::driver::steering;
 use crate::driver::stopping::{stopping_way, to_stop_at};
 use crate::record::events::BrakingCause;
 use crate::right_of_way::approach as junction;
 use crate::right_of_way::approach::{FirstIntoMerge, Junction};
+use crate::route::closures::ClosureAhead;
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics, Phase};
 use crate::state::random::Purpose;
@@ -34,6 +36,8 @@ pub(crate) struct Chosen {
     pub(crate) touches: bool,
     /// What the driver reacts to at a junction.
     pub(crate) junction: Junction,
+    /// The share of its lane change that it has to do on each metre, since little road is left; 0 if there is enough.
+    pub(crate) per_metre: f64,
 }
 
 /// Where a driver with a leader on its chain reacts only to it: beyond the fork, and before the next place to stop.
@@ -146,7 +150,9 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     let there = Spot { chain: counterpart.chain, index };
     let other = beside_others(scene, there, in_lane(scene, clock, there, lane_end));
     let lower = if other.acceleration < chosen.acceleration { other } else { chosen };
-    Chosen { acceleration: lower.acceleration, cause: lower.cause, ..chosen }
+    let per_metre = chosen.per_metre.max(other.per_metre);
+    let acceleration = lower.acceleration.min(steering::slowly_enough(scene, clock, spot, per_metre));
+    Chosen { acceleration, cause: lower.cause, per_metre, ..chosen }
 }
 
 /// The acceleration for one entry. Its leader may be on another chain, and kinematics may have to decide.
@@ -159,9 +165,13 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         Some(errors) => true_leader.map(|it| errors.of_leader(it)),
         None => true_leader,
     };
+    let on_a_free_road = || scene.style_of(driver).follow.acceleration(pace(motion, driver), None);
     let acceleration = match leader {
+        Some(leader) if steering::creeps_up_to(motion, driver, leader) => {
+            on_a_free_road().min(to_stop_at(motion.speed, leader.gap - steering::NEAR_A_VEHICLE, clock.dt))
+        }
         Some(leader) => behind_one(scene, motion, driver, leader),
-        None => scene.style_of(driver).follow.acceleration(pace(motion, driver), None),
+        None => on_a_free_road(),
     };
     let wish = Wish { acceleration, cause: BrakingCause::Leader };
     let wish = if slows { slowing(scene, clock, motion, driver, wish) } else { wish };
@@ -170,7 +180,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     let (wish, stop) = at_junction(scene, motion, driver, &junction, wish, clock.dt);
     let Wish { acceleration: wish, cause } = wish;
     let wish = within(wish, -HARDEST_BRAKING, driver.class.strength());
-    let clearance = scene.style_of(driver).follow.clearance();
+    let clearance = clearance(scene, spot, leader);
     let clear = |it: Ahead| it.nearer(clearance);
     let behind_leader = bound(motion.speed, wish, leader.map(clear), clock.dt);
     let before_the_end = bound(motion.speed, behind_leader, end, clock.dt);
@@ -182,6 +192,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         }
         None => before_the_stop,
     };
+    let per_metre = steering::per_metre(scene, spot, [true_leader, end, stop]);
     // A lower positive acceleration is no braking.
     let by_kinematics = acceleration < wish && acceleration < 0.0;
     Chosen {
@@ -190,7 +201,19 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         by_kinematics,
         touches: true_leader.is_some_and(|it| it.gap < 0.0),
         junction,
+        per_metre,
     }
+}
+
+/// The distance that kinematics keeps behind a leader [m]: that of the driver's model, or more if one of the two
+/// stands at an angle, since it is in a lane change.
+fn clearance(scene: &Scene, spot: Spot, leader: Option<Ahead>) -> f64 {
+    const NEAR: f64 = 2.0;
+    let is_between_lanes = |spot| scene.driver(spot).phase.is_between_lanes();
+    let is_angled = leader.is_some_and(|it| it.gap < NEAR)
+        && (is_between_lanes(spot) || scene.leader_spot(scene.viewpoint(spot)).is_some_and(is_between_lanes));
+    let own = scene.style(spot).follow.clearance();
+    if is_angled { own.max(FollowingModel::LARGEST_CLEARANCE) } else { own }
 }
 
 /// The acceleration of a driver whose desired speed falls, because of the road ahead: it falls with it.
@@ -288,7 +311,7 @@ fn reacting_to_more(
         let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
         let stopping = to_stop_at(motion.speed, end - kept - motion.x, clock.dt);
         wish = wish.or(stopping, BrakingCause::LaneEnd);
-        obstacle = Some(Ahead::standing(end - motion.x));
+        obstacle = Some(Ahead::standing(end - motion.x - steering::kept_to_begin(scene, spot)));
     }
     if scene.navigator.closures().is_empty() {
         return (wish, obstacle);
@@ -305,14 +328,16 @@ fn before_closure(
     wish: Wish,
     end: Option<Ahead>,
 ) -> (Wish, Option<Ahead>) {
-    let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot));
+    let is_on_its_way = steering::leaves_its_lane(scene, spot);
+    let place = |it: ClosureAhead| if is_on_its_way { it.way_out } else { it.ahead };
+    let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot)).map(place);
     let Some(closed) = closed.filter(|closed| end.is_none_or(|it| *closed < it.gap)) else {
         return (wish, end);
     };
     let room = closed - kept_room(scene, clock, spot);
     let stopping = to_stop_at(scene.motion(spot).speed, room, clock.dt);
     let wish = wish.or(stopping, BrakingCause::LaneEnd);
-    (wish, Some(Ahead::standing(closed)))
+    (wish, Some(Ahead::standing(closed - steering::kept_to_begin(scene, spot))))
 }
 
 /// The acceleration for all that a driver reacts to besides its leader.

@@ -92,10 +92,12 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
     let Some(counterpart) = lane_change.counterpart.filter(|_| lane_change.progress < 0.5) else { return };
-    // In a lane that ends here, the driver could no longer stop before the end.
-    let left = scene.network.chain(spot.chain).driven_until(driver.class.is_long()) - motion.x;
-    let ends_here = scene.network.chain(spot.chain).is_lane_drop;
-    if ends_here && deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER {
+    // In a lane that ends here, or that is closed ahead, the driver could no longer stop before the end.
+    let here = scene.network.chain(spot.chain);
+    let end = here.is_lane_drop.then(|| here.driven_until(driver.class.is_long()) - motion.x);
+    let closure = scene.closure_ahead(scene.viewpoint(spot)).map(|it| it.ahead);
+    let cannot_stop = |left: f64| deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER;
+    if end.into_iter().chain(closure).any(cannot_stop) {
         return;
     }
     let style = scene.style_of(driver);

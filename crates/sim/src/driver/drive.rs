@@ -97,8 +97,13 @@ fn drive_in_two_lanes(
     let both = behind_both(scene, clock, spot, road);
     let acceleration = both.or_else(|| behind_offside(scene, clock, spot, road))?;
     let (_, distance) = moved(scene.motion(spot), acceleration, 1.0, clock.dt);
-    let upkeep =
-        Upkeep { index: spot.index as u32, distance, in_emergency: false, reservation_is_over: false };
+    let upkeep = Upkeep {
+        index: spot.index as u32,
+        distance,
+        in_emergency: false,
+        reservation_is_over: false,
+        per_metre: 0.0,
+    };
     push_tight(&mut plan.upkeep, upkeep);
     Some((acceleration, stretch(scene, spot)))
 }
@@ -116,7 +121,7 @@ fn drive_with_care(
 ) -> (f64, f64) {
     let driver = scene.driver(spot);
     let chosen = with_care(scene, clock, spot, lane_end);
-    let Chosen { acceleration, by_kinematics, touches, junction, .. } = chosen;
+    let Chosen { acceleration, by_kinematics, touches, junction, per_metre, .. } = chosen;
     let in_emergency = by_kinematics || (driver.in_emergency && acceleration < 0.0);
     // A shadow counts too: kinematics decides for the vehicle in either lane.
     if by_kinematics && !driver.in_emergency {
@@ -134,7 +139,11 @@ fn drive_with_care(
         let (_, distance) = moved(motion, acceleration, 1.0, clock.dt);
         let slot = scene.lane_change(spot).reservation;
         let reservation_is_over = slot != NO_RESERVATION && scene.reservations.of(slot, motion.id).is_none();
-        push_tight(&mut plan.upkeep, Upkeep { index, distance, in_emergency, reservation_is_over });
+        let per_metre = per_metre as f32;
+        push_tight(
+            &mut plan.upkeep,
+            Upkeep { index, distance, in_emergency, reservation_is_over, per_metre },
+        );
     }
     if junction.asks {
         let id = scene.motion(spot).id;

@@ -8,6 +8,7 @@ use laneweave_network::{ChainIndex, Side};
 use crate::driver::lane_end::lane_end;
 use crate::driver::misperception::misperception;
 use crate::driver::perceive::driver_of;
+use crate::driver::steering;
 use crate::driver::stopping::stopping_way;
 use crate::driver::window;
 use crate::junction::storage_section::StorageSection;
@@ -159,6 +160,9 @@ impl Gap {
     /// The reason why the gap is not accepted.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, clock: Clock) -> Result<(), Hindrance> {
         self.urgency_on_road(scene, spot, scene.motion(spot).speed)?;
+        if !steering::has_road(scene, spot) {
+            return Err(Hindrance::TooLittleRoad);
+        }
         let safety = &scene.style(spot).safety;
         let [ahead, behind] = self.seen(scene, spot, clock.time());
         ahead
@@ -207,7 +211,8 @@ impl Gap {
         let style = scene.style(spot);
         let duration = style.manner.duration(f64::from(urgency));
         let crossing = 0.5 * duration * speed;
-        if self.room < crossing {
+        let closure = scene.closure_ahead(scene.viewpoint(spot)).map_or(f64::INFINITY, |it| it.way_out);
+        if self.room.min(closure) < crossing {
             return Err(Hindrance::TooLittleRoad);
         }
         // A driver does not change into a lane that ends if it could not stop before the end.
@@ -219,7 +224,7 @@ impl Gap {
         }
         if !scene.navigator.closures().is_empty() {
             let there = scene.viewpoint_at(scene.viewpoint(spot), self.chain, self.x);
-            if scene.closure_ahead(there).is_some_and(|it| it < needed()) {
+            if scene.closure_ahead(there).is_some_and(|it| it.ahead < needed()) {
                 return Err(Hindrance::TooLittleRoad);
             }
         }

@@ -2,6 +2,7 @@
 
 use laneweave_network::{Chain, ChainIndex};
 
+use crate::driver::steering::leaves_its_lane;
 use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot};
 
@@ -9,7 +10,7 @@ use crate::view::scene::{Scene, Spot};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LaneEnd {
     /// Its end as drawn. A vehicle that changes lanes has to have crossed by then.
-    drawn: f64,
+    pub(super) drawn: f64,
     /// Where it becomes too narrow for a car, and for a long vehicle. A vehicle that does not change lanes stops
     /// before.
     open: [f64; 2],
@@ -28,13 +29,8 @@ impl LaneEnd {
 
     /// Where the lane ends for the entry at `spot`.
     pub(crate) fn of_entry(&self, scene: &Scene, spot: Spot) -> f64 {
-        let (driver, has_crossed) = (scene.driver(spot), scene.lane_change(spot).progress >= 0.5);
-        let is_leaving = match driver.phase {
-            Phase::Changes => driver.is_shadow == has_crossed,
-            Phase::Aborts => driver.is_shadow,
-            Phase::Cruises | Phase::Wants => false,
-        };
-        if is_leaving { self.drawn } else { self.open_for(driver.class.is_long()) }
+        let is_long = scene.driver(spot).class.is_long();
+        if leaves_its_lane(scene, spot) { self.drawn } else { self.open_for(is_long) }
     }
 
     /// Where it becomes too narrow for a car, or for a long vehicle [m].

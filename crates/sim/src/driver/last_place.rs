@@ -1,6 +1,7 @@
 //! How drivers come to the last place for a lane change, and wait there for a gap.
 
 use crate::driver::gap::gap;
+use crate::driver::steering;
 use crate::driver::stopping::{approach, to_stop_at};
 use crate::driver::window::{Window, leader_beside};
 use crate::state::clock::Clock;
@@ -9,7 +10,7 @@ use crate::view::scene::{Scene, Spot};
 
 /// Road kept before the end of a lane and the last place for a change [m]: a truck needs it to steer past a vehicle.
 const ROOM_AT_THE_END: f64 = 16.0;
-/// What is left of that road when it is used [m].
+/// What is left of that road when a driver waits on it [m].
 const LEAST_ROOM: f64 = 1.0;
 /// A driver who has waited this long for a gap [s], and hardly moves [m/s], uses that road.
 const WAITS: f64 = 8.0;
@@ -18,13 +19,13 @@ pub(super) const HARDLY_MOVES: f64 = 3.0;
 /// half of the excess (ours: in towns drivers wait for a gap, on motorways they do not stop).
 const WAITS_BELOW: f64 = 17.0;
 
-/// Road that a driver keeps before the place where it has to have left its lane [m]. A driver who changes uses it. So
-/// does one who waited there in vain, if only the vehicle behind blocks it: of two drivers side by side who want each
-/// other's lane, the one ahead moves on, and both can go.
+/// Road that a driver keeps before the place where it has to have left its lane [m]. A driver who changes uses it all.
+/// So does, but for a metre, one who waited there in vain, if only the vehicle behind blocks it: of two drivers side by
+/// side who want each other's lane, the one ahead moves on, and both can go.
 pub(super) fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (driver, lane_change) = (scene.driver(spot), scene.lane_change(spot));
     let moves_up = match driver.phase {
-        Phase::Changes => true,
+        Phase::Changes => return steering::NEAR_THE_END,
         Phase::Wants => {
             let waited = clock.since(lane_change.since);
             let least = scene.style_of(driver).safety.min_gap;

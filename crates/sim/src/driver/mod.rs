@@ -5,7 +5,7 @@
 //!   accepted; `misperception.rs` the errors with which a driver sees others; `window.rs` and `last_place.rs` short
 //!   stretches on which lanes may be changed
 //! * `drive.rs`, `accelerate.rs`, `fall_in.rs`, `two_lanes.rs`, `merge.rs`, `stopping.rs` and `lane_end.rs` the next
-//!   motion
+//!   motion; `steering.rs` how slow drivers move sideways
 //! * `request_reservation.rs` junctions; `stuck.rs` who stands for nothing
 //! * `beliefs.rs` and `leave.rs` how drivers take guidance
 //! * `obey.rs` external vehicles; `plan.rs` what a step writes down; `intention.rs` and `wish.rs` what is read of it
@@ -30,6 +30,7 @@ pub(crate) mod obey;
 pub(crate) mod perceive;
 pub(crate) mod plan;
 pub(crate) mod request_reservation;
+pub(crate) mod steering;
 pub(crate) mod stopping;
 pub(crate) mod stuck;
 pub(crate) mod turn;

@@ -149,6 +149,8 @@ pub(crate) struct Upkeep {
     pub(crate) in_emergency: bool,
     /// The reservation that it had has ended.
     pub(crate) reservation_is_over: bool,
+    /// The share of its lane change that it has to do on each metre, since little road is left; 0 if there is enough.
+    pub(crate) per_metre: f32,
 }
 
 /// An entry of an external vehicle, and what its user says in this step.

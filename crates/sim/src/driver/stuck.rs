@@ -3,6 +3,7 @@
 use laneweave_network::ZoneIndex;
 
 use crate::driver::consider::STUCK_AFTER;
+use crate::driver::drive::acceleration;
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
@@ -30,8 +31,8 @@ enum Blocker {
 }
 
 /// Whether the vehicle at `spot`, which has stood for long, is stuck. It is not stuck if the first of the vehicles
-/// that block it moves, is about to move, waits at a light that was green recently, or is driven by a user and could
-/// not be passed. Vehicles that wait for each other are all stuck.
+/// that block it moves, drives off now, is about to move, waits at a light that was green recently, or is driven by a
+/// user and could not be passed. Vehicles that wait for each other are all stuck.
 #[inline(never)]
 pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
     let mut at = spot;
@@ -40,6 +41,7 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
             return at != spot && could_go_round(scene, at, clock);
         }
         match blocker(scene, at, clock, survey) {
+            Blocker::Nothing | Blocker::Other if acceleration(scene, clock, at) > 0.0 => return false,
             Blocker::Other if waits_for_a_user(scene, at, survey) => return false,
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
             Blocker::Vehicle(next) => at = next,

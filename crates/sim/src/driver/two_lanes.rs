@@ -7,6 +7,7 @@ use crate::driver::lane_end::lane_end;
 use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
+use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};
 
 /// The acceleration of a vehicle in a lane change whose driver reacts only to the leaders in both lanes: the lower one
@@ -65,6 +66,8 @@ fn follow(
     road: &OpenRoad,
 ) -> Option<f64> {
     let [motion, leader, ..] = motions else { return None };
-    let is_leader = leader.id != motion.id && road.reaches(motion, leader.x);
+    let is_between_lanes = driver.phase.is_between_lanes();
+    let stands = is_between_lanes && leader.speed < STANDSTILL;
+    let is_leader = leader.id != motion.id && !stands && road.reaches(motion, leader.x);
     if is_leader { behind(scene, motion, driver, leader, clock.dt) } else { None }
 }

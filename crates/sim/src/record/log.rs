@@ -12,8 +12,8 @@ use crate::record::lanelet_aggregates::{LaneletAggregate, LaneletAggregates, Mar
 use crate::record::trip_log::{TripLog, TripRecord};
 use crate::record::trips::Trips;
 use crate::state::clock::Clock;
-use crate::state::externals::FIRST_INSERTED;
-use crate::state::lane::{Entry, Kinematics, Lane, LaneChangeKind, Phase, VehicleId};
+use crate::state::externals::{FIRST_INSERTED, FIRST_OBSTACLE};
+use crate::state::lane::{DriverState, Entry, Kinematics, Lane, LaneChangeKind, Phase, VehicleId};
 use crate::state::milestone::{Milestone, Reached};
 
 /// Lane changes under way, trips, counts and incidents.
@@ -344,7 +344,10 @@ impl Log {
                 .iter()
                 .zip(lane.lane_change_states())
                 .filter(|(it, _)| it.phase != Phase::Cruises);
-            lane.motions().iter().all(|it| knows(it.id)) && changes.all(|(_, it)| records.has(it.record))
+            let is_obstacle = |id: VehicleId, it: &DriverState| id >= FIRST_OBSTACLE && it.is_shadow;
+            let mut entries = lane.motions().iter().map(|it| it.id).zip(lane.drivers());
+            entries.all(|(id, driver)| is_obstacle(id, driver) || knows(id))
+                && changes.all(|(_, it)| records.has(it.record))
         };
         let count = waiting.len();
         let trip_log_fits = |it: &TripLog| it.fits(network.chains.len()) && it.reach(next_ids, count);

@@ -47,6 +47,15 @@ struct Stretch {
     open: OpenLanes,
 }
 
+/// The next closed stretch ahead of a vehicle.
+pub(crate) struct ClosureAhead {
+    /// Distance up to which it comes along its lane [m].
+    pub(crate) ahead: f64,
+    /// Distance to the last place where it can be on its way out of the lane [m].
+    pub(crate) way_out: f64,
+    open: OpenLanes,
+}
+
 impl Closures {
     /// Within this distance before a closed lanelet vehicles may have to brake for it [m].
     const BRAKING: f64 = 500.0;
@@ -241,8 +250,8 @@ impl Navigator {
         self.closures = closures;
     }
 
-    /// Distance to the next closed stretch on the route from `x` on `chain` to `destination`, `within` these [m], and
-    /// the open lanes beside it. A vehicle on closed lanelets drives off them.
+    /// The next closed stretch on the route from `x` on `chain` to `destination`, `within` these [m]. A vehicle on
+    /// closed lanelets drives off them.
     pub(crate) fn closure_ahead(
         &self,
         network: &Network,
@@ -250,7 +259,7 @@ impl Navigator {
         chain: ChainIndex,
         x: f64,
         within: f64,
-    ) -> Option<(f64, OpenLanes)> {
+    ) -> Option<ClosureAhead> {
         /// Lanelets this near to each other are joined [m].
         const JOINED: f64 = 0.1;
         if self.closures.is_empty() {
@@ -265,7 +274,7 @@ impl Navigator {
                 if ahead < 0.0 || ahead - closed_until < JOINED {
                     closed_until = if end > 0.0 { end } else { closed_until };
                 } else if ahead <= within.min(*known_from) {
-                    return Some((ahead, *open));
+                    return Some(ClosureAhead { ahead, way_out: last.max(ahead), open: *open });
                 }
             }
         }
@@ -285,7 +294,8 @@ impl Navigator {
         if self.closures.is_empty() {
             return waypoint;
         }
-        let Some((ahead, open)) = self.closure_ahead(network, destination, chain, x, Navigator::SIGNED)
+        let Some(ClosureAhead { ahead, open, .. }) =
+            self.closure_ahead(network, destination, chain, x, Navigator::SIGNED)
         else {
             return waypoint;
         };
@@ -314,9 +324,8 @@ impl Navigator {
                 .then(|| self.closure_ahead(network, destination, at.chain, at.x, Navigator::SOON))
                 .flatten();
             lanes
-                + next.map_or(changes, |(_, open)| {
-                    self.changes_by(network, destination, &open, changes, more - 1)
-                })
+                + next
+                    .map_or(changes, |it| self.changes_by(network, destination, &it.open, changes, more - 1))
         };
         open.iter().flatten().map(by).min().unwrap_or(1)
     }

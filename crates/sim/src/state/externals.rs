@@ -9,6 +9,8 @@ use crate::state::lane::{Entry, Phase, VehicleId};
 /// The first id of the vehicles that users put on the road. So vehicles of the demand have the same ids, and with them
 /// the same random numbers, whatever users do.
 pub const FIRST_INSERTED: VehicleId = 1_000_000_000;
+/// The first id of obstacles: they are numbered apart from vehicles.
+pub const FIRST_OBSTACLE: VehicleId = 3_000_000_000;
 
 /// The external vehicles, in the order of their ids, and what others see of accidents.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -18,7 +20,18 @@ pub(crate) struct Externals {
     rears: Vec<(VehicleId, Position)>,
 }
 
-/// A vehicle that a user drives.
+/// What an external vehicle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Kind {
+    /// A vehicle that a user drives.
+    Driven,
+    /// A recorded vehicle: its speed is known better than its place.
+    Recorded,
+    /// No vehicle, but something that stands on the road.
+    Obstacle,
+}
+
+/// A vehicle that a user drives, or something that is moved or stands as one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct External {
     /// The vehicle.
@@ -31,8 +44,8 @@ pub(crate) struct External {
     pub(crate) phase: Phase,
     /// Its entries in other lanes that it touches.
     pub(crate) obstacles: Vec<Position>,
-    /// It is a recorded vehicle: its speed is known better than its place.
-    pub(crate) is_recorded: bool,
+    /// What it is.
+    pub(crate) kind: Kind,
     /// Its body, if the user drives it by poses.
     pub(crate) body: Option<Body>,
     /// Steps in which it stood although its driver would have gone.
@@ -72,7 +85,7 @@ impl External {
             at,
             phase: Phase::Cruises,
             obstacles: Vec::new(),
-            is_recorded: false,
+            kind: Kind::Driven,
             body: None,
             idle: 0,
             passable_since: None,

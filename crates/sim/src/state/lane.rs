@@ -325,7 +325,9 @@ impl Lane {
     pub(crate) fn remove_ended(&mut self) {
         let mut index = 0;
         while index < self.drivers.len() {
-            if self.drivers[index].is_shadow && self.drivers[index].phase == Phase::Cruises {
+            let driver = &self.drivers[index];
+            let stands_for_an_external = driver.is_external && self.is_obstacle(index);
+            if driver.is_shadow && driver.phase == Phase::Cruises && !stands_for_an_external {
                 self.remove(index);
             } else {
                 index += 1;

@@ -58,7 +58,8 @@ pub(crate) fn advance(
                 counterpart.x += upkeep.distance * f64::from(counterpart.stretch);
             }
             let manner = &driver_parameters[driver.parameters as usize].manner;
-            let step = crossing(manner, motion, lane_change).progress_in(clock.dt) as f32;
+            let step = crossing(manner, motion, lane_change)
+                .progress_in(clock.dt, f64::from(upkeep.per_metre)) as f32;
             has_ended |= go_across(motion, driver, lane_change, chain, clock, step, outbox);
         }
         if driver.needs_full_update {
@@ -140,6 +141,9 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
 
 /// A change is complete at this share of its time: the steps add up to 1 except for rounding.
 const DONE: f32 = 0.9999;
+/// A vehicle that goes back is out of the other lane at this share of the time: its front bumper is a tenth of the way
+/// across at most.
+const OUT: f32 = 0.1;
 
 fn milestone(
     motion: &Kinematics,
@@ -185,7 +189,13 @@ fn go_across(
         Phase::Aborts => {
             lane_change.progress = was - step;
             if lane_change.progress > 0.0 {
-                return false;
+                let is_out = lane_change.progress <= OUT;
+                if is_out && driver.is_shadow {
+                    driver.phase = Phase::Cruises;
+                } else if is_out {
+                    lane_change.counterpart = None;
+                }
+                return is_out && driver.is_shadow;
             }
         }
         Phase::Cruises | Phase::Wants => return false,

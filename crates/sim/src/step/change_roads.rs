@@ -66,7 +66,7 @@ fn closures_ahead(roads: &Roads, traffic: &Traffic) -> impl Iterator<Item = Opti
         entries.map(move |(motion, driver)| {
             let destination = driver.goal.destination();
             let ahead = navigator.closure_ahead(network, destination, chain, motion.x, Navigator::SIGNED);
-            ahead.map(|it| it.0)
+            ahead.map(|it| it.ahead)
         })
     })
 }

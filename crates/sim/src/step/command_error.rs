@@ -47,7 +47,7 @@ pub enum CommandError {
         remedy: String,
     },
     /// Its place is not free, or a vehicle cannot be there.
-    #[error("a vehicle cannot be put at {position_m:.1} m of lanelet {lanelet}: {why}")]
+    #[error("nothing can be put at {position_m:.1} m of lanelet {lanelet}: {why}")]
     Place {
         /// The lanelet.
         lanelet: i64,

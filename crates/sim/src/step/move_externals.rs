@@ -8,7 +8,7 @@ use crate::junction::state::JunctionState;
 use crate::record::log::Log;
 use crate::route::roads::Roads;
 use crate::state::control::Control;
-use crate::state::externals::{Body, External};
+use crate::state::externals::{Body, External, Kind};
 use crate::state::lane::{Counterpart, Entry, VehicleId};
 use crate::state::traffic::Traffic;
 use crate::step::externals::find;
@@ -41,7 +41,7 @@ pub(crate) fn move_externals(
     }
     clear_rears(traffic);
     let mut externals = std::mem::take(traffic.externals_mut());
-    for external in externals.all_mut() {
+    for external in externals.all_mut().iter_mut().filter(|it| it.kind != Kind::Obstacle) {
         clear_obstacles(traffic, external);
         if let Control::Pose { x, y, heading, speed } = external.control {
             let mut relocating = Relocating { roads, traffic, junctions, log, work };
@@ -76,7 +76,7 @@ fn take_pose(relocating: &mut Relocating, external: &mut External, [x, y, headin
     let way = body.pose.at.distance(&rectangle.pose.at);
     // What jumps does not drive.
     let before = (way <= Control::FASTEST * dt).then_some(body.rectangle());
-    let has_known_speed = external.is_recorded;
+    let has_known_speed = external.kind == Kind::Recorded;
     let speed = if has_known_speed { speed } else { speed.min(way / dt) };
     let moved = Moved { rectangle, before, speed, has_known_speed, way };
     settle(relocating, external, &mut entry, &moved, &footprints);
@@ -225,7 +225,7 @@ fn crosses_without_reservation(scene: &Scene, spot: Spot) -> bool {
 }
 
 /// Puts an obstacle for the vehicle of `entry` where it touches another lane. Returns where it is.
-fn put_obstacle(
+pub(super) fn put_obstacle(
     roads: &Roads,
     traffic: &mut Traffic,
     entry: &Entry,

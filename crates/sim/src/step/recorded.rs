@@ -11,7 +11,7 @@ use crate::record::lanelet_aggregates::Mark;
 use crate::record::trip_log::TripRecord;
 use crate::route::roads::Roads;
 use crate::state::control::{Control, Lateral, Longitudinal};
-use crate::state::externals::{self, External};
+use crate::state::externals::{self, External, Kind};
 use crate::state::lane::{Entry, VehicleId};
 use crate::state::setup::Placement;
 use crate::state::vehicle::Class;
@@ -101,7 +101,7 @@ impl World {
         let mut entry: Entry = entry(roads, clock, &placement, id);
         entry.driver.is_external = true;
         let mut external = External::new(id, pose.control(), at);
-        external.is_recorded = true;
+        external.kind = Kind::Recorded;
         let Rectangle { pose: centre, .. } = rectangle;
         external.body =
             Some(externals::Body { pose: centre, length, width, speed: pose.speed, off_road: Some(entry) });

@@ -1,11 +1,11 @@
 //! Drivers see what stands in a lane from afar, as they see a closed lane: a vehicle that a user drives, and that
-//! stands although its driver would go.
+//! stands although its driver would go, and an obstacle.
 
 use laneweave_network::{ChainIndex, Position};
 
 use crate::route::closures::Standing;
 use crate::route::roads::Roads;
-use crate::state::externals::External;
+use crate::state::externals::{External, Kind};
 use crate::state::lane::VehicleId;
 use crate::state::traffic::Traffic;
 use crate::step::change_roads::close;
@@ -28,7 +28,8 @@ pub(crate) fn see_standing(roads: &mut Roads, traffic: &mut Traffic) {
 fn note_passable(roads: &Roads, traffic: &mut Traffic) {
     let (closures, step) = (roads.navigator().closures(), traffic.clock().step);
     for external in traffic.externals_mut().all_mut() {
-        let is_passable = closures.can_be_passed(external.at);
+        let mut places = std::iter::once(&external.at).chain(&external.obstacles);
+        let is_passable = places.any(|it| closures.can_be_passed(*it));
         external.passable_since = is_passable.then_some(external.passable_since.unwrap_or(step));
     }
 }
@@ -38,7 +39,11 @@ pub(super) fn standing(traffic: &Traffic) -> Vec<Standing> {
     let externals = traffic.externals().all();
     let longest = traffic.clock().steps(PATIENCE);
     let idle_for = |it: &External| if it.control.holds_still() { 1 } else { longest };
-    let stands = |it: &External| !it.is_recorded && it.idle >= idle_for(it);
+    let stands = |it: &External| match it.kind {
+        Kind::Driven => it.idle >= idle_for(it),
+        Kind::Recorded => false,
+        Kind::Obstacle => true,
+    };
     let mut found: Vec<bool> = externals.iter().map(stands).collect();
     // Whoever is held behind something that stands, such as the next one of a pile-up, stands there, too: its driver
     // would not go.

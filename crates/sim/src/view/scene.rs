@@ -8,6 +8,7 @@ use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach};
 use crate::junction::reservations::{Reservation, Reservations};
 use crate::junction::signals::Signals;
 use crate::junction::state::JunctionState;
+use crate::route::closures::ClosureAhead;
 use crate::route::fitting_speed::Outlook;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
@@ -182,9 +183,9 @@ impl<'a> Scene<'a> {
         !closures.is_empty() && closures.cover(chain, x)
     }
 
-    /// Distance to the next closed stretch ahead of a vehicle, if it may have to brake for it [m].
+    /// The next closed stretch ahead of a vehicle, if it may have to brake for it.
     #[inline]
-    pub(crate) fn closure_ahead(&self, from: Viewpoint) -> Option<f64> {
+    pub(crate) fn closure_ahead(&self, from: Viewpoint) -> Option<ClosureAhead> {
         /// Drivers brake within this distance [m].
         const BRAKING: f64 = 400.0;
         if self.navigator.closures().is_empty() {
@@ -194,7 +195,7 @@ impl<'a> Scene<'a> {
         if !self.navigator.closures().are_near(chain) {
             return None;
         }
-        self.navigator.closure_ahead(self.network, destination, chain, x, BRAKING).map(|it| it.0)
+        self.navigator.closure_ahead(self.network, destination, chain, x, BRAKING)
     }
 
     /// The viewpoint of an entry.

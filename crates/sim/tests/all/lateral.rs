@@ -112,8 +112,8 @@ fn v46_a_fast_change_takes_four_seconds_and_a_slow_one_as_long_as_it_needs_way()
     let road = Road { lanes: 2, ..Road::default() };
     let duration = |class, speed| lonely_change(road, 0, 30.0, class, speed).duration;
     assert!((duration(Class::Car, 30.0) - Manner::default().change_duration).abs() < 0.11);
-    assert!((duration(Class::Car, 5.0) - 5.0).abs() < 0.11);
-    assert!((duration(Class::Truck, 6.0) - 6.0).abs() < 0.11);
+    assert!((duration(Class::Car, 2.0) - 6.0).abs() < 0.11);
+    assert!((duration(Class::Truck, 3.0) - 6.0).abs() < 0.11);
 }
 
 #[test]

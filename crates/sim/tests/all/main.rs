@@ -22,6 +22,7 @@ mod perception;
 mod real_towns;
 mod roads;
 mod safety;
+mod sideways;
 mod snapshot;
 mod trip_log;
 mod trips;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use laneweave::scenario::{Origin, Scenario, read_map};
-use laneweave::sim::{DriverState, LaneChangeState, Vehicle};
+use laneweave::sim::{DriverState, LaneChangeState, Obstacle, Vehicle};
 use laneweave::{Class, Event, Fault, Phase, Side, Simulation, VehicleId};
 
 use laneweave_studies::branch::Parting;
@@ -126,7 +126,8 @@ impl Driven {
         snapshot.time_s = self.time_s();
         snapshot.waiting = simulation.waiting_to_enter();
         snapshot.lights = simulation.lights().into_iter().map(|it| it.state).collect();
-        snapshot.vehicles = simulation.views().map(|it| self.seen(&it, wants)).collect();
+        let vehicles = simulation.views().map(|it| self.seen(&it, wants));
+        snapshot.vehicles = vehicles.chain(simulation.obstacles().map(obstacle)).collect();
         for id in &wants.selected {
             let vehicle = VehicleId::try_from(*id).ok().and_then(|it| simulation.view(it));
             let facts = vehicle.and_then(|it| serde_json::to_string(&self.facts(&it)).ok());
@@ -209,4 +210,24 @@ fn body(class: Class) -> Body {
 /// The side to which a driver signals: it wants to change there, or does.
 fn signals(driver: &DriverState, lane_change: &LaneChangeState) -> Option<Side> {
     matches!(driver.phase, Phase::Wants | Phase::Changes).then_some(lane_change.side)
+}
+
+/// An obstacle, as grey as what is recorded.
+fn obstacle((id, it): (VehicleId, Obstacle)) -> Seen {
+    Seen {
+        id: i64::from(id),
+        at: [it.pose.at.x, it.pose.at.y, it.pose.at.z],
+        heading: it.pose.heading,
+        speed: 0.0,
+        length: it.length,
+        width: it.width,
+        body: body(Class::Car),
+        style: 0,
+        phase: 0,
+        is_braking: false,
+        signals: None,
+        is_external: false,
+        is_recorded: true,
+        values: [0; 4],
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{DrivingSide, LightIndex, SignalPlan};
+use laneweave_network::{DrivingSide, Lanelet, LightIndex, SignalPlan};
 use laneweave_sim::Place;
 use serde_json::{Value, json};
 
@@ -71,6 +71,7 @@ impl Facts {
             ("turns", turns(prepared)),
             ("signals", signals(prepared)),
             ("external", external(prepared)),
+            ("obstacle", obstacle(prepared)),
             ("styles", styles()),
         ];
         Facts {
@@ -196,21 +197,37 @@ fn signals(prepared: &Prepared) -> Rows {
     }
 }
 
-/// The styles other than those of the scenario.
-fn external(prepared: &Prepared) -> Rows {
+/// The longest lanelet on which vehicles enter.
+fn longest_entrance(prepared: &Prepared) -> Option<&Lanelet> {
     let network = prepared.world.network();
     let lanelets = prepared.origins.iter().filter_map(|(place, _)| network.lanelet_with(place.id()));
-    let longest =
-        lanelets.map(|it| &network.lanelets[it.at()]).max_by(|a, b| a.length().total_cmp(&b.length()));
-    let row = longest.zip(prepared.styles.first()).map(|(lanelet, (style, _))| Row::Table {
-        header: "[[external]]",
+    lanelets.map(|it| &network.lanelets[it.at()]).max_by(|a, b| a.length().total_cmp(&b.length()))
+}
+
+fn obstacle(prepared: &Prepared) -> Rows {
+    let row = longest_entrance(prepared).map(|lanelet| Row::Table {
+        header: "[[obstacle]]",
         keys: vec![
             ("lanelet", json!(lanelet.id)),
             ("position_m", json!(tenths(0.5 * lanelet.length()))),
-            ("speed_mps", json!(tenths(0.5 * lanelet.speed_limit))),
-            ("style", json!(style)),
+            ("from_s", json!(300.0)),
+            ("until_s", json!(900.0)),
         ],
     });
+    Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
+}
+
+fn external(prepared: &Prepared) -> Rows {
+    let row =
+        longest_entrance(prepared).zip(prepared.styles.first()).map(|(lanelet, (style, _))| Row::Table {
+            header: "[[external]]",
+            keys: vec![
+                ("lanelet", json!(lanelet.id)),
+                ("position_m", json!(tenths(0.5 * lanelet.length()))),
+                ("speed_mps", json!(tenths(0.5 * lanelet.speed_limit))),
+                ("style", json!(style)),
+            ],
+        });
     Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
 }
 

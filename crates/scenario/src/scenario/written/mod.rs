@@ -15,7 +15,7 @@ use facts::{Facts, Row};
 use prose::{Kind, comment, described, inline, key, kind, meaning};
 
 /// Keys and tables in the order of the file; others follow in that of their names.
-const ORDER: [&str; 39] = [
+const ORDER: [&str; 41] = [
     "map",
     "model",
     "made_signals",
@@ -44,6 +44,8 @@ const ORDER: [&str; 39] = [
     "signals.phases.green_s",
     "external",
     "external.lanelet",
+    "obstacle",
+    "obstacle.lanelet",
     "replay",
     "replay.recording",
     "replay.columns",

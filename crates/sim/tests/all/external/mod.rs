@@ -11,5 +11,5 @@ mod poses;
 mod recorded;
 mod standing;
 mod struck;
-mod worlds;
+pub(crate) mod worlds;
 mod yielding;

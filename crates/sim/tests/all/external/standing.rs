@@ -1,6 +1,7 @@
 //! Something stands in a lane: drivers see it from afar, leave its lane, and pass.
 
-use laneweave_sim::{Class, Command, Control, Lateral, Longitudinal, NewVehicle, VehicleId, World};
+use laneweave_network::Position;
+use laneweave_sim::{Class, Command, Control, Lateral, Longitudinal, NewVehicle, Obstacle, VehicleId, World};
 
 use crate::external::closed_lanes::across;
 use crate::external::worlds::world;
@@ -122,6 +123,8 @@ fn where_no_lane_is_free_the_queue_waits_and_goes_on_when_one_is_free_again() {
 fn what_stands_in_lanes_is_part_of_a_saved_world() {
     let mut one = world("motorway_2_lanes.osm", 900.0, 6, 1);
     put(&mut one, CAR);
+    let far = obstacle(&one, 2600.0, [2.0, 2.0]);
+    one.put_obstacle(1, &far).expect("its place is free");
     (0..900).for_each(|_| one.step());
     let mut other = world("motorway_2_lanes.osm", 900.0, 6, 1);
     other.restore(&one.save().expect("there is memory")).expect("it is the same world");
@@ -141,4 +144,90 @@ fn a_lanelet_that_is_closed_beside_it_leaves_no_way_round() {
     (0..6000).for_each(|_| world.step());
     // The first one before the closed lanelet waits for a gap in the queue that stands beside it.
     assert!(world.counters().stuck <= 1, "nobody could go round: {}", world.counters().stuck);
+}
+
+/// An obstacle of this size with its far end at `x` on the right lane of a straight motorway.
+fn obstacle(world: &World, x: f64, size: [f64; 2]) -> Obstacle {
+    let lanelet = across(world, x)[0];
+    let start =
+        world.network().lanelets.iter().find(|it| it.id == lanelet).expect("it is there").centre.at(0.0).x;
+    world.obstacle_in_lane(lanelet, x - start, size).expect("its place is there")
+}
+
+#[test]
+fn an_obstacle_is_passed_as_a_vehicle_that_has_broken_down_and_the_lane_is_used_again_when_it_is_gone() {
+    let free = drive("motorway_2_lanes.osm", 500.0, 12, &[]);
+    let mut world = world("motorway_2_lanes.osm", 500.0, 12, 1);
+    let it = obstacle(&world, CAR.x, [1.0, 1.5]);
+    let id = world.put_obstacle(0, &it).expect("its place is free");
+    assert_eq!((world.vehicles().count(), world.counts().entered), (0, 0), "it is no vehicle");
+    assert_eq!(world.obstacles().collect::<Vec<_>>(), [(id, it)]);
+    let mut spent = 0.0;
+    for _ in 0..9000 {
+        world.step();
+        spent += 0.1 * world.vehicles().count() as f64;
+    }
+    let lost = (spent - free.spent) / free.world.counts().left as f64;
+    assert!((0.1..5.0).contains(&lost), "{lost} s");
+    world.remove_obstacle(id);
+    (0..1200).for_each(|_| world.step());
+    let lane = across(&world, CAR.x)[0];
+    let mut back = 0;
+    for _ in 0..1200 {
+        world.step();
+        back += world
+            .vehicles()
+            .filter(|it| world.network().lanelet_at(Position::new(it.spot.chain, it.x())).0.id == lane)
+            .count();
+    }
+    assert!(back > 0, "nobody uses the lane again");
+    let counters = world.counters();
+    assert_eq!((counters.collisions, counters.overlaps, counters.stuck, counters.lost), (0, 0, 0, 0));
+}
+
+#[test]
+fn an_obstacle_over_two_lanes_of_three_closes_both() {
+    let mut world = world("motorway_3_lanes.osm", 600.0, 13, 1);
+    let mut wide = obstacle(&world, CAR.x, [6.0, 4.0]);
+    wide.pose.at.y += 1.75;
+    world.put_obstacle(3, &wide).expect("its place is free");
+    let mut seen = [0; 3];
+    for _ in 0..6000 {
+        world.step();
+        let passes = |y: f64, lane: usize| ((y - 1.75) / 3.5 - lane as f64).abs() < 0.3;
+        for it in world.vehicles().filter(|it| (it.pose().at.x - CAR.x).abs() < 3.0) {
+            (0..3).for_each(|lane| seen[lane] += usize::from(passes(it.pose().at.y, lane)));
+        }
+    }
+    assert!(seen[..2] == [0, 0] && seen[2] > 50, "{seen:?}");
+    let counters = world.counters();
+    assert_eq!((counters.collisions, counters.overlaps, counters.stuck, counters.lost), (0, 0, 0, 0));
+}
+
+#[test]
+fn an_obstacle_comes_only_where_whoever_drives_there_can_stay_clear_of_it() {
+    let mut world = world("motorway_2_lanes.osm", 3600.0, 14, 1);
+    (0..3000).for_each(|_| world.step());
+    let (mut put, mut refused) = (0, 0);
+    for number in 0..40 {
+        let it = obstacle(&world, 500.0 + 50.0 * f64::from(number), [4.0, 2.0]);
+        match world.put_obstacle(number, &it) {
+            Ok(id) => {
+                (0..100).for_each(|_| world.step());
+                world.remove_obstacle(id);
+                put += 1;
+            }
+            Err(near) => {
+                assert!(near.is_some_and(|it| world.vehicle(it).is_some()));
+                refused += 1;
+            }
+        }
+    }
+    assert!(put > 5 && refused > 0, "{put} {refused}");
+    assert_eq!((world.counters().collisions, world.counters().overlaps), (0, 0));
+    assert!(world.obstacle_in_lane(-1, 3.0, [4.0, 2.0]).is_err(), "there is no such lanelet");
+    let lanelet = across(&world, 500.0)[0];
+    for (x, size) in [(-1.0, [4.0, 2.0]), (50.0, [0.0, 2.0]), (1e4, [4.0, 2.0]), (50.0, [4.0, f64::NAN])] {
+        assert!(world.obstacle_in_lane(lanelet, x, size).is_err(), "{x} {size:?}");
+    }
 }

@@ -91,7 +91,7 @@ fn it_does_not_come_twice_into_a_twin_and_is_part_of_a_saved_state() {
     let (origin, mut alone) = (Origin::default(), simulation(&own));
     let saved = alone.save().expect("it can be saved");
     let told = simulation(&with(Vec::new())).restore(&saved).expect_err("it has no external vehicle");
-    assert!(told.what.ends_with("with other external vehicles"), "{told}");
+    assert!(told.what.ends_with("with other external vehicles or obstacles"), "{told}");
     alone.run(60.0).expect("it runs");
     let fingerprint = fingerprint(&own, &origin).expect("the map is there");
     let end = End { state_hash: String::new(), fingerprint, duration_s: 60.0, warmup_s: 0.0 };

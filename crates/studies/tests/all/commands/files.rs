@@ -56,8 +56,7 @@ fn what_is_no_longer_possible_is_counted_and_the_run_goes_on() {
         assert!(line.ends_with(end), "{line}");
     }
     assert!(
-        ended.warnings[2]
-            .contains("row 4 (at 2 s): a vehicle cannot be put at 60.0 m of lanelet 5: vehicle ")
+        ended.warnings[2].contains("row 4 (at 2 s): nothing can be put at 60.0 m of lanelet 5: vehicle ")
     );
     assert_eq!(ended.warnings[3], "1 more commands were refused");
 }

@@ -2,6 +2,7 @@
 
 mod external;
 mod files;
+mod obstacles;
 mod repeated;
 mod runs;
 mod user;
