@@ -3,8 +3,8 @@
 //! For a value given as an interval the middle is taken, for a position given as an area its centre. A state without
 //! a velocity gets that of the path from the state before, or to the next one. The first frame is number 0.
 //!
-//! Static obstacles, unobserved obstacles and planning problems are ignored. Occupancy sets are ignored, too: they
-//! say where an obstacle may be. The map is read by [`laneweave_maps::commonroad`].
+//! Unobserved obstacles and planning problems are ignored. Occupancy sets are ignored, too: they say where an obstacle
+//! may be. The map, with what stands in it, is read by [`laneweave_maps::commonroad`].
 
 mod obstacle;
 
@@ -143,8 +143,8 @@ impl Standing {
         (self.number > 0).then(|| Problem {
             element: format!("obstacle {id}"),
             line: Some(line),
-            what: format!("parked vehicles are left out: this one and {} more", self.number - 1),
-            remedy: "give them trajectories if they matter".into(),
+            what: format!("parked vehicles are no tracks: this one and {} more", self.number - 1),
+            remedy: "take this file as the map: then they stand on its roads".into(),
         })
     }
 }

@@ -1,18 +1,13 @@
 //! One obstacle of a CommonRoad file: its shape and states, which become a track.
 
 use laneweave_maps::Problem;
+use laneweave_maps::commonroad::{ObstacleShape, Place, Value};
 use laneweave_maps::xml::number;
 
 use crate::recording::{RoadUser, State, Track};
 
-/// Coordinates beyond this are taken as errors [m].
-const MAXIMUM_COORDINATE: f64 = 4.1e7;
 /// Maximum speed on a road [m/s].
 const MAXIMUM_SPEED: f64 = 150.0;
-/// Directions beyond this are taken as errors: the format's range is one turn either way [rad].
-const MAXIMUM_ANGLE: f64 = 100.0;
-/// Maximum length or width of a road user [m].
-const MAXIMUM_EXTENT: f64 = 400.0;
 /// Maximum number of frames.
 const MAXIMUM_FRAME: f64 = 1e8;
 
@@ -24,28 +19,12 @@ pub(super) struct Obstacle {
     pub(super) is_static: bool,
     /// Its type, such as `car`.
     pub(super) kind: String,
-    /// Its first shape, and how many it has.
-    shape: Shape,
-    shapes: usize,
+    shape: ObstacleShape,
     /// The state that is being read.
     moment: Moment,
     states: Vec<State>,
     flaws: Flaws,
     has_occupancies: bool,
-}
-
-/// A rectangle or circle; zero where the file says nothing.
-#[derive(Default)]
-struct Shape {
-    /// [m]
-    length: f64,
-    /// [m]
-    width: f64,
-    /// Angle to the direction of the obstacle [rad].
-    orientation: f64,
-    /// Centre, ahead of and left of the obstacle's position [m].
-    ahead: f64,
-    left: f64,
 }
 
 /// States that cannot be used.
@@ -66,8 +45,7 @@ impl Obstacle {
         match part {
             "initialState" | "trajectory/state" => self.moment = Moment { line, ..Moment::default() },
             "occupancySet" => self.has_occupancies = true,
-            _ if part.strip_prefix("shape/").is_some_and(|it| !it.contains('/')) => self.shapes += 1,
-            _ => {}
+            _ => self.shape.open(part),
         }
     }
 
@@ -81,9 +59,7 @@ impl Obstacle {
                 Err(flaw) => self.flaws.add(self.moment.line, flaw),
             },
             _ => {
-                if let Some(leaf) = part.strip_prefix("shape/").filter(|_| self.shapes == 1) {
-                    self.shape.take(leaf, number(text));
-                }
+                self.shape.take(part, number(text));
                 let inside = part.strip_prefix("initialState/");
                 if let Some(leaf) = inside.or_else(|| part.strip_prefix("trajectory/state/")) {
                     self.moment.take(leaf, number(text));
@@ -98,15 +74,14 @@ impl Obstacle {
             let what = "its occupancy set is ignored";
             problems.push(self.problem(what, "give it a trajectory if it was observed"));
         }
-        let is_extent = |it: f64| it > 0.0 && it <= MAXIMUM_EXTENT;
-        if !(is_extent(self.shape.length) && is_extent(self.shape.width) && self.shape.is_near()) {
+        if !self.shape.is_usable() {
             let what =
                 "its first shape is not a rectangle or circle of the size of a road user, so it is left out";
             problems.push(self.problem(what, "give it a rectangle with length and width in m"));
             return None;
         }
-        if self.shapes > 1 {
-            let what = format!("only the first of its {} shapes is used", self.shapes);
+        if self.shape.count > 1 {
+            let what = format!("only the first of its {} shapes is used", self.shape.count);
             problems.push(self.problem(what, "give it one rectangle"));
         }
         self.states.sort_by_key(|it| it.frame);
@@ -115,7 +90,9 @@ impl Obstacle {
         for _ in self.states.len()..given {
             self.flaws.add(self.line, "another one has the same time");
         }
-        self.states.iter_mut().for_each(|it| self.shape.centre(it));
+        for it in &mut self.states {
+            ([it.x, it.y], it.heading) = self.shape.centre([it.x, it.y], it.heading);
+        }
         fill_speeds(&mut self.states, step);
         let given = self.states.len();
         self.states.retain(|it| it.speed.abs() <= MAXIMUM_SPEED);
@@ -127,7 +104,7 @@ impl Obstacle {
             problems.push(self.problem("it has no state, so it is left out", "give it a trajectory"));
             return None;
         }
-        let Shape { length, width, .. } = self.shape;
+        let ObstacleShape { length, width, .. } = self.shape;
         Some(Track { id: self.id, class: self.class(), length, width, states: self.states })
     }
 
@@ -154,78 +131,19 @@ impl Obstacle {
     }
 }
 
-impl Shape {
-    fn take(&mut self, leaf: &str, value: f64) {
-        match leaf {
-            "rectangle/length" => self.length = value,
-            "rectangle/width" => self.width = value,
-            "circle/radius" => (self.length, self.width) = (2.0 * value, 2.0 * value),
-            "rectangle/orientation" => self.orientation = value,
-            "rectangle/center/x" | "circle/center/x" => self.ahead = value,
-            "rectangle/center/y" | "circle/center/y" => self.left = value,
-            _ => {}
-        }
-    }
-
-    /// Whether the shape lies around the obstacle's position.
-    fn is_near(&self) -> bool {
-        let is_near = |it: f64| it.abs() <= MAXIMUM_EXTENT;
-        is_near(self.ahead) && is_near(self.left) && self.orientation.abs() <= MAXIMUM_ANGLE
-    }
-
-    /// Moves a state from the obstacle's position to the centre of its shape.
-    fn centre(&self, state: &mut State) {
-        let (sin, cos) = state.heading.sin_cos();
-        state.x += cos * self.ahead - sin * self.left;
-        state.y += sin * self.ahead + cos * self.left;
-        state.heading += self.orientation;
-    }
-}
-
 /// A state while it is read.
 #[derive(Default)]
 struct Moment {
     line: usize,
-    x: Option<f64>,
-    y: Option<f64>,
-    orientation: Value,
+    place: Place,
     velocity: Value,
     time: Value,
 }
 
-/// A value that is exact or an interval.
-#[derive(Default)]
-struct Value {
-    exact: Option<f64>,
-    start: Option<f64>,
-    end: Option<f64>,
-}
-
-impl Value {
-    fn take(&mut self, leaf: &str, value: f64) {
-        match leaf {
-            "exact" => self.exact = Some(value),
-            "intervalStart" => self.start = Some(value),
-            "intervalEnd" => self.end = Some(value),
-            _ => {}
-        }
-    }
-
-    fn middle(&self) -> Option<f64> {
-        self.exact.or_else(|| Some(0.5 * (self.start? + self.end?)))
-    }
-}
-
 impl Moment {
     fn take(&mut self, leaf: &str, value: f64) {
+        self.place.take(leaf, value);
         match leaf.split_once('/') {
-            Some(("position", "point/x" | "rectangle/center/x" | "circle/center/x")) => {
-                self.x = self.x.or(Some(value));
-            }
-            Some(("position", "point/y" | "rectangle/center/y" | "circle/center/y")) => {
-                self.y = self.y.or(Some(value));
-            }
-            Some(("orientation", leaf)) => self.orientation.take(leaf, value),
             Some(("velocity", leaf)) => self.velocity.take(leaf, value),
             Some(("time", leaf)) => self.time.take(leaf, value),
             _ => {}
@@ -234,16 +152,11 @@ impl Moment {
 
     /// The state, or its problem; a missing speed is NaN.
     fn state(&self) -> Result<State, &'static str> {
-        let within = |value: Option<f64>, limit: f64| value.filter(|it| it.abs() <= limit);
         let time = self.time.exact.or_else(|| self.time.middle().map(f64::round));
-        let frame = within(time, MAXIMUM_FRAME).filter(|it| *it >= 0.0 && it.fract() == 0.0);
-        Ok(State {
-            frame: frame.ok_or("its time is not a whole number of steps")? as i64,
-            x: within(self.x, MAXIMUM_COORDINATE).ok_or("it has no position")?,
-            y: within(self.y, MAXIMUM_COORDINATE).ok_or("it has no position")?,
-            speed: self.velocity.middle().unwrap_or(f64::NAN),
-            heading: within(self.orientation.middle(), MAXIMUM_ANGLE).ok_or("it has no orientation")?,
-        })
+        let frame = time.filter(|it| (0.0..=MAXIMUM_FRAME).contains(it) && it.fract() == 0.0);
+        let frame = frame.ok_or("its time is not a whole number of steps")? as i64;
+        let ([x, y], heading) = self.place.known()?;
+        Ok(State { frame, x, y, speed: self.velocity.middle().unwrap_or(f64::NAN), heading })
     }
 }
 

@@ -54,8 +54,8 @@ fn tracks_are_read_with_their_frames() {
     assert_eq!(read, Recording { step: 0.5, tracks: vec![car] });
     assert_eq!(
         problems,
-        ["obstacle 8 (line 9): parked vehicles are left out: this one and 0 more; \
-          give them trajectories if they matter"]
+        ["obstacle 8 (line 9): parked vehicles are no tracks: this one and 0 more; \
+          take this file as the map: then they stand on its roads"]
     );
 }
 

@@ -185,7 +185,7 @@ fn prepare_with(
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let player = playing.player(scenario, origin, &world)?;
-    let script = Script::of(scenario, origin, player, &world)?;
+    let script = Script::of(scenario, origin, &map.contents.obstacles, player, &world)?;
     Ok(Prepared {
         warmup_steps,
         steps: steps(scenario.run.duration_s).max(1),

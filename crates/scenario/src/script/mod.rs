@@ -57,10 +57,12 @@ struct Planned {
 }
 
 impl Script {
-    /// The script of `scenario`, whose `world` is at its start, with the recording that `player` plays.
+    /// The script of `scenario`, whose `world` is at its start, with what stands in the map, and the recording that
+    /// `player` plays.
     pub(crate) fn of(
         scenario: &Scenario,
         origin: &Origin,
+        standing: &[laneweave_maps::Obstacle],
         player: Option<Player>,
         world: &World,
     ) -> Result<Script, Fault> {
@@ -83,6 +85,8 @@ impl Script {
             })?;
             script.obstacles.push(planned);
         }
+        let standing = standing.iter().filter_map(|it| obstacles::Planned::of_map(it, world));
+        script.obstacles.extend(standing);
         script.player = player.map(Arc::new);
         script.state = script.at_its_start();
         script.with_commands(scenario.commands.as_deref(), world)

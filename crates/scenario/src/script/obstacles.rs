@@ -56,6 +56,13 @@ pub(super) fn planned(obstacle: &Obstacle, world: &World) -> Result<Planned, Wro
 }
 
 impl Planned {
+    /// One that stands in the map all the time, if it touches a lane of `world`.
+    pub(super) fn of_map(obstacle: &laneweave_maps::Obstacle, world: &World) -> Option<Planned> {
+        let laneweave_maps::Obstacle { pose, length, width } = *obstacle;
+        let what = laneweave_sim::Obstacle { pose, length, width };
+        world.is_in_lanes(&what).then_some(Planned { what, from_step: 0, until_step: None })
+    }
+
     /// What becomes of the obstacle with this `number` before the next step of `world`. One that comes waits for a
     /// while until whoever drives behind can stop far enough behind it to go round it.
     pub(super) fn go_on(&self, number: u32, stage: Stage, world: &mut World) -> Stage {

@@ -105,6 +105,11 @@ impl World {
         Ok(id)
     }
 
+    /// Whether an obstacle would touch a lane.
+    pub fn is_in_lanes(&self, obstacle: &Obstacle) -> bool {
+        !on_one_level(&self.roads, &mut obstacle.rectangle()).is_empty()
+    }
+
     /// Whether drivers behind could stop so far behind an obstacle that they can go round it.
     pub fn has_room_behind_obstacle(&self, obstacle: &Obstacle) -> bool {
         let footprints = on_one_level(&self.roads, &mut obstacle.rectangle());

@@ -51,6 +51,8 @@ pub struct Report {
     pub lane_drops: Vec<i64>,
     /// Regulatory elements by kind.
     pub rules: BTreeMap<String, usize>,
+    /// Obstacles that stand on or beside the roads.
+    pub obstacles: usize,
     /// Elements that could not be used unchanged, or are suspicious.
     pub problems: Vec<Problem>,
     /// Remarks on the traffic of the map.
@@ -122,6 +124,7 @@ impl Report {
                 .map(|it| lanelets[it.at()].id)
                 .collect(),
             rules: kinds,
+            obstacles: contents.obstacles.len(),
             remarks,
             problems: sorted(problems.iter().cloned().chain(check(network)).collect()),
         }
@@ -180,6 +183,9 @@ impl Report {
             "rules                  {}",
             if rules.is_empty() { "none".into() } else { rules.join(", ") }
         )?;
+        if self.obstacles > 0 {
+            writeln!(out, "obstacles              {}, on or beside the roads", self.obstacles)?;
+        }
         if !self.remarks.is_empty() {
             writeln!(out, "\nWhat to expect of traffic:")?;
             self.remarks.iter().try_for_each(|it| writeln!(out, "  {it}"))?;

@@ -5,6 +5,7 @@ use std::mem;
 use laneweave_network::Point;
 
 use super::element::{Adjacent, LaneletElement, Sign};
+use super::obstacle::StaticObstacle;
 use super::rules;
 use crate::drawing::Crossing;
 use crate::problem::Problem;
@@ -12,10 +13,11 @@ use crate::shape::MAXIMUM_COORDINATE;
 use crate::xml::{Element, Visitor, XmlError, number, walk};
 
 /// The roads of a CommonRoad file.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(super) struct Document {
     pub(super) lanelets: Vec<LaneletElement>,
     pub(super) signs: Vec<Sign>,
+    pub(super) obstacles: Vec<StaticObstacle>,
     /// The kind of road that the scenario names, such as `urban`.
     pub(super) tags: Vec<String>,
 }
@@ -44,6 +46,7 @@ enum Building {
     Nothing,
     Lanelet(Box<LaneletElement>),
     Sign(Sign),
+    Obstacle(Box<StaticObstacle>),
 }
 
 impl Visitor for Drafts<'_> {
@@ -61,7 +64,14 @@ impl Visitor for Drafts<'_> {
                     self.building = Building::Sign(Sign { id, line: element.line, shown: Vec::new() });
                 }
             }
+            "staticObstacle" | "obstacle" => {
+                if let Some(id) = self.id("obstacle", element)? {
+                    let obstacle = StaticObstacle::new(id, element.line, path == "staticObstacle");
+                    self.building = Building::Obstacle(Box::new(obstacle));
+                }
+            }
             _ => match (&mut self.building, path.split_once('/')) {
+                (Building::Obstacle(obstacle), Some((_, part))) => obstacle.open(part),
                 (Building::Lanelet(lanelet), Some(("lanelet", part))) => {
                     self.problems.extend(lanelet.open(part, element)?);
                 }
@@ -80,12 +90,15 @@ impl Visitor for Drafts<'_> {
             (_, None) => match mem::take(&mut self.building) {
                 Building::Lanelet(lanelet) => self.document.lanelets.push(*lanelet),
                 Building::Sign(sign) => self.document.signs.push(sign),
+                Building::Obstacle(it) if it.is_static => self.document.obstacles.push(*it),
+                Building::Obstacle(_) => {}
                 Building::Nothing => {}
             },
             (Building::Lanelet(lanelet), Some((_, part))) => {
                 self.problems.extend(lanelet.close(part, text));
             }
             (Building::Sign(sign), Some((_, part))) => sign.close(part, text),
+            (Building::Obstacle(obstacle), Some((_, part))) => obstacle.close(part, text, number(text)),
             (Building::Nothing, _) => {}
         }
     }

@@ -12,12 +12,15 @@
 //!   none, or `urban` alone, the tags of the scenario decide.
 //! * Traffic drives on the right unless the options say otherwise: the format has no such field.
 //!
+//! Static obstacles are contents of the map. Dynamic ones are a recording.
+//!
 //! Traffic lights, stop lines, intersections and signs other than speed limits are ignored. Lanelets that overlap
 //! without a link stay without one.
 
 mod document;
 mod element;
 mod links;
+mod obstacle;
 mod rules;
 mod speed;
 
@@ -38,6 +41,7 @@ use crate::size::Size;
 use document::Document;
 use element::LaneletElement;
 use links::Places;
+pub use obstacle::{ObstacleShape, Place, Value};
 use speed::SpeedSigns;
 
 /// Reads a CommonRoad map. Lanelets that cannot be used as they stand are left out and listed as problems.
@@ -53,6 +57,12 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     let mut problems = Vec::new();
     let document = document::parse(bytes, &mut problems)?;
     let mut contents = Contents::default();
+    for it in &document.obstacles {
+        match it.obstacle() {
+            Ok(obstacle) => contents.obstacles.push(obstacle),
+            Err(problem) => problems.push(problem),
+        }
+    }
     let (elements, places, mut lanelets) =
         shaped(&document, options.law, &mut contents.limits_of_law, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);

@@ -190,3 +190,35 @@ fn shuffled_lines_give_the_same_roads() {
     assert_eq!(roads(&map), roads(&shuffled));
     assert_eq!(shuffled.problems, []);
 }
+
+#[test]
+fn what_stands_there_is_a_content_of_the_map() {
+    let obstacle = |name: &str, id: i64, inside: &str| {
+        format!(
+            "<{name} id='{id}'>{inside}<initialState><position><point><x>50</x><y>2</y></point></position>\
+             <orientation><exact>0.5</exact></orientation><time><exact>0</exact></time></initialState></{name}>\n"
+        )
+    };
+    let car = "<type>parkedVehicle</type><shape><rectangle><length>4.2</length><width>1.7</width>\
+               <center><x>2</x><y>0</y></center></rectangle></shape>";
+    let round = "<type>pillar</type><shape><circle><radius>0.4</radius></circle></shape>";
+    let shapeless = "<type>unknown</type><shape><polygon><point><x>1</x><y>1</y></point></polygon></shape>";
+    let lost = "<staticObstacle id='6'><shape><circle><radius>1</radius></circle></shape></staticObstacle>\n";
+    let inside = obstacle("staticObstacle", 1, car)
+        + &obstacle("obstacle", 2, &format!("<role>static</role>{round}"))
+        + &obstacle("obstacle", 3, &format!("<role>dynamic</role>{car}"))
+        + &obstacle("dynamicObstacle", 4, car)
+        + &obstacle("staticObstacle", 5, shapeless)
+        + lost;
+    let map = read(&two_lanes().replace("<trafficSign ", &(inside + "<trafficSign "))).unwrap();
+    let found = &map.contents.obstacles;
+    let sizes: Vec<[f64; 2]> = found.iter().map(|it| [it.length, it.width]).collect();
+    assert_eq!(sizes, [[4.2, 1.7], [0.8, 0.8]]);
+    let at = found[0].pose.at;
+    assert!((at.x - 50.0 - 2.0 * 0.5f64.cos()).hypot(at.y - 2.0 - 2.0 * 0.5f64.sin()) < 1e-12, "{at:?}");
+    assert_eq!((found[1].pose.at.x, found[1].pose.at.y, found[1].pose.heading), (50.0, 2.0, 0.5));
+    let problems: Vec<String> = map.problems.iter().map(ToString::to_string).collect();
+    assert_eq!(problems.len(), 2, "{problems:?}");
+    assert!(problems[0].starts_with("obstacle 5 (line 12): its first shape is not a rectangle or circle"));
+    assert!(problems[1].starts_with("obstacle 6 (line 13): it has no orientation, so it is left out"));
+}

@@ -73,6 +73,47 @@ fn its_run_is_repeated_from_its_table_and_goes_on_in_a_twin_and_from_a_saved_sta
 }
 
 #[test]
+fn what_stands_in_the_map_stands_on_its_lanes_from_the_start() {
+    let parked = |id: i64, y: f64| {
+        format!(
+            "<staticObstacle id='{id}'><type>parkedVehicle</type><shape><rectangle><length>4</length><width>1.8</width>\
+             </rectangle></shape><initialState><position><point><x>300</x><y>{y}</y></point></position><orientation>\
+             <exact>0</exact></orientation><time><exact>0</exact></time></initialState></staticObstacle>\n"
+        )
+    };
+    let lane = |id: i64, right: f64, beside: &str| {
+        let bound = |y: f64| {
+            let point = |x: i32| format!("<point><x>{x}</x><y>{y}</y></point>");
+            (0..=10).map(|it| point(60 * it)).collect::<String>() + "<lineMarking>dashed</lineMarking>"
+        };
+        let (left, right) = (bound(right + 3.5), bound(right));
+        format!(
+            "<lanelet id='{id}'><leftBound>{left}</leftBound><rightBound>{right}</rightBound>{beside}\
+             <laneletType>urban</laneletType></lanelet>\n"
+        )
+    };
+    let map = format!(
+        "<commonRoad commonRoadVersion='2020a'>{}{}{}{}</commonRoad>",
+        lane(1, 0.0, "<adjacentLeft ref='2' drivingDir='same'/>"),
+        lane(2, 3.5, "<adjacentRight ref='1' drivingDir='same'/>"),
+        parked(8, 1.75),
+        parked(9, -2.0)
+    );
+    let path = folder("standing").join("map.xml");
+    fs::write(&path, map).expect("it is written");
+    let mut own = Scenario::of_map(path);
+    own.demand.vehicles_per_hour = Some(400.0);
+    own.run.duration_s = 300.0;
+    let mut simulation = simulation(&own);
+    simulation.run(300.0).expect("it runs");
+    let places: Vec<f64> = simulation.obstacles().map(|it| it.1.pose.at.y).collect();
+    assert_eq!(places, [1.75], "the other one is beside the road");
+    let counters = simulation.counters();
+    assert_eq!((counters.collisions, counters.overlaps, counters.stuck), (0, 0, 0));
+    assert!(simulation.counts().left > 15, "{}", simulation.counts().left);
+}
+
+#[test]
 fn one_that_finds_no_place_is_told() {
     let mut own = with(vec![load(), Obstacle { from_s: 300.0, until_s: None, ..load() }]);
     own.output.dir = folder("obstacle-late");
