@@ -20,7 +20,7 @@ use crate::route::closures::ClosureAhead;
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics, Phase};
 use crate::state::random::Purpose;
-use crate::state::standstill::ROOM_AT_A_STOP;
+use crate::state::standstill::{ROOM_AT_A_STOP, STANDSTILL};
 use crate::view::scene::{Scene, Spot};
 
 /// The acceleration that a driver chose.
@@ -192,7 +192,10 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         }
         None => before_the_stop,
     };
-    let per_metre = steering::per_metre(scene, spot, [true_leader, end, stop]);
+    let per_metre = match driver.phase.is_between_lanes() {
+        true => steering::per_metre(scene, spot, [true_leader, end, stop]),
+        false => 0.0,
+    };
     // A lower positive acceleration is no braking.
     let by_kinematics = acceleration < wish && acceleration < 0.0;
     Chosen {
@@ -205,15 +208,22 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     }
 }
 
-/// The distance that kinematics keeps behind a leader [m]: that of the driver's model, or more if one of the two
-/// stands at an angle, since it is in a lane change.
+/// The distance that kinematics keeps behind a leader [m]: that of the driver's model, or more if one of the two is at
+/// an angle, since it is in a lane change.
+#[inline]
 fn clearance(scene: &Scene, spot: Spot, leader: Option<Ahead>) -> f64 {
-    const NEAR: f64 = 2.0;
-    let is_between_lanes = |spot| scene.driver(spot).phase.is_between_lanes();
-    let is_angled = leader.is_some_and(|it| it.gap < NEAR)
-        && (is_between_lanes(spot) || scene.leader_spot(scene.viewpoint(spot)).is_some_and(is_between_lanes));
+    const NEAR: f64 = 1.5;
+    // Who stands comes no nearer.
+    let is_near = leader.is_some_and(|it| it.gap < NEAR) && scene.motion(spot).speed >= STANDSTILL;
     let own = scene.style(spot).follow.clearance();
-    if is_angled { own.max(FollowingModel::LARGEST_CLEARANCE) } else { own }
+    if is_near && is_angled(scene, spot) { own.max(FollowingModel::LARGEST_CLEARANCE) } else { own }
+}
+
+/// Whether the vehicle at `spot` or its leader is between lanes.
+#[inline(never)]
+fn is_angled(scene: &Scene, spot: Spot) -> bool {
+    let is_between_lanes = |spot| scene.driver(spot).phase.is_between_lanes();
+    is_between_lanes(spot) || scene.leader_spot(scene.viewpoint(spot)).is_some_and(is_between_lanes)
 }
 
 /// The acceleration of a driver whose desired speed falls, because of the road ahead: it falls with it.

@@ -160,9 +160,6 @@ impl Gap {
     /// The reason why the gap is not accepted.
     pub(crate) fn accepted(&self, scene: &Scene, spot: Spot, clock: Clock) -> Result<(), Hindrance> {
         self.urgency_on_road(scene, spot, scene.motion(spot).speed)?;
-        if !steering::has_road(scene, spot) {
-            return Err(Hindrance::TooLittleRoad);
-        }
         let safety = &scene.style(spot).safety;
         let [ahead, behind] = self.seen(scene, spot, clock.time());
         ahead
@@ -170,7 +167,8 @@ impl Gap {
             .map_err(|(why, pair)| Hindrance::Ahead(why, pair))?;
         behind
             .map_or(Ok(()), |it| it.accepted(&safety.of_follower(), clock.dt))
-            .map_err(|(why, pair)| Hindrance::Behind(why, pair))
+            .map_err(|(why, pair)| Hindrance::Behind(why, pair))?;
+        if steering::has_road(scene, spot) { Ok(()) } else { Err(Hindrance::TooLittleRoad) }
     }
 
     /// The pairings as the driver at `spot` sees them at `time` [s]. Of a pair it sees the other vehicle with errors.

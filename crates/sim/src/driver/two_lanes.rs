@@ -4,10 +4,10 @@
 use crate::driver::accelerate::{OpenRoad, behind};
 use crate::driver::fall_in::staying_behind;
 use crate::driver::lane_end::lane_end;
+use crate::driver::steering::creeps_up_to;
 use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
-use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};
 
 /// The acceleration of a vehicle in a lane change whose driver reacts only to the leaders in both lanes: the lower one
@@ -66,8 +66,8 @@ fn follow(
     road: &OpenRoad,
 ) -> Option<f64> {
     let [motion, leader, ..] = motions else { return None };
-    let is_between_lanes = driver.phase.is_between_lanes();
-    let stands = is_between_lanes && leader.speed < STANDSTILL;
-    let is_leader = leader.id != motion.id && !stands && road.reaches(motion, leader.x);
+    let ahead = leader.ahead(leader.rear() - motion.x);
+    let creeps = creeps_up_to(motion, driver, ahead);
+    let is_leader = leader.id != motion.id && !creeps && road.reaches(motion, leader.x);
     if is_leader { behind(scene, motion, driver, leader, clock.dt) } else { None }
 }
