@@ -340,7 +340,8 @@ fn before_closure(
 ) -> (Wish, Option<Ahead>) {
     let is_on_its_way = steering::leaves_its_lane(scene, spot);
     let place = |it: ClosureAhead| if is_on_its_way { it.way_out } else { it.ahead };
-    let closed = scene.closure_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot)).map(place);
+    let closed =
+        scene.end_of_lane_ahead(scene.viewpoint(spot)).filter(|_| !is_leaving(scene, spot)).map(place);
     let Some(closed) = closed.filter(|closed| end.is_none_or(|it| *closed < it.gap)) else {
         return (wish, end);
     };

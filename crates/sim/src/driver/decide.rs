@@ -95,7 +95,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     // In a lane that ends here, or that is closed ahead, the driver could no longer stop before the end.
     let here = scene.network.chain(spot.chain);
     let end = here.is_lane_drop.then(|| here.driven_until(driver.class.is_long()) - motion.x);
-    let closure = scene.closure_ahead(scene.viewpoint(spot)).map(|it| it.ahead);
+    let closure = scene.end_of_lane_ahead(scene.viewpoint(spot)).map(|it| it.ahead);
     let cannot_stop = |left: f64| deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER;
     if end.into_iter().chain(closure).any(cannot_stop) {
         return;

@@ -209,7 +209,7 @@ impl Gap {
         let style = scene.style(spot);
         let duration = style.manner.duration(f64::from(urgency));
         let crossing = 0.5 * duration * speed;
-        let closure = scene.closure_ahead(scene.viewpoint(spot)).map_or(f64::INFINITY, |it| it.way_out);
+        let closure = scene.end_of_lane_ahead(scene.viewpoint(spot)).map_or(f64::INFINITY, |it| it.way_out);
         if self.room.min(closure) < crossing {
             return Err(Hindrance::TooLittleRoad);
         }

@@ -26,6 +26,8 @@ pub(super) fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
     let (driver, lane_change) = (scene.driver(spot), scene.lane_change(spot));
     let moves_up = match driver.phase {
         Phase::Changes => return steering::NEAR_THE_END,
+        // It has to drive on, or it would never be back.
+        Phase::Aborts => true,
         Phase::Wants => {
             let waited = clock.since(lane_change.since);
             let least = scene.style_of(driver).safety.min_gap;
@@ -33,7 +35,7 @@ pub(super) fn kept_room(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
                 && scene.motion(spot).speed < HARDLY_MOVES
                 && leader_beside(scene, spot, lane_change.side).is_none_or(|it| it.gap >= least)
         }
-        Phase::Cruises | Phase::Aborts => false,
+        Phase::Cruises => false,
     };
     if moves_up { LEAST_ROOM } else { ROOM_AT_THE_END }
 }

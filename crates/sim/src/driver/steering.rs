@@ -47,7 +47,7 @@ pub(super) fn has_road(scene: &Scene, spot: Spot) -> bool {
     }
     let from = scene.viewpoint(spot);
     let leader = scene.ahead(from).filter(|it| it.speed < STANDSTILL).map(|it| it.gap);
-    let closure = scene.closure_ahead(from).map(|it| 2.0 * it.way_out);
+    let closure = scene.end_of_lane_ahead(from).map(|it| 2.0 * it.way_out);
     let end = lane_end(scene, spot.chain).map(|it| 2.0 * (it.drawn - scene.motion(spot).x));
     leader.is_none_or(|it| it - NEAR_A_VEHICLE - DONE >= LEAST_ROAD)
         && [closure, end].into_iter().flatten().all(|it| it - NEAR_THE_END - DONE >= LEAST_ROAD)
@@ -76,7 +76,10 @@ pub(super) fn per_metre(scene: &Scene, spot: Spot, [leader, end, stop]: [Option<
     let standing = leader.filter(|it| it.speed < STANDSTILL).map(|it| until(rest, it.gap - NEAR_A_VEHICLE));
     let stop = stop.map(|it| until(rest, it.gap - ROOM_AT_A_STOP));
     let crosses = driver.phase == Phase::Changes && to_cross > 0.0 && leaves_its_lane(scene, spot);
-    let end = end.filter(|_| crosses).map(|it| until(to_cross, it.gap - NEAR_THE_END));
+    let end = end.and_then(|it| match driver.phase {
+        Phase::Aborts if !driver.is_shadow => Some(until(rest, it.gap - LEAST_ROAD)),
+        _ => crosses.then(|| until(to_cross, it.gap - NEAR_THE_END)),
+    });
     let ahead = lane_change.last_place - scene.motion(spot).x;
     let last_place =
         (crosses && !driver.is_shadow && ahead > 0.0).then(|| until(to_cross, ahead - NEAR_THE_END));

@@ -10,13 +10,15 @@ use crate::route::navigate::Navigator;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 
-/// Something that stands in a lane, and does not go on by itself.
+/// Something that stands in a lane, and does not go on by itself; or that crawls, and holds up everybody behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Standing {
     /// The lane.
     pub(crate) chain: ChainIndex,
     /// Its rear and its front [m].
     pub(crate) reach: [f64; 2],
+    /// It crawls.
+    pub(crate) crawls: bool,
 }
 
 /// For each side the number of lanes to the next one that is open beside a closed stretch, and the place there.
@@ -43,6 +45,8 @@ struct Stretch {
     leaves_until: f64,
     /// From this distance on drivers know of it [m].
     known_from: f64,
+    /// What closes it crawls on: nobody has to stop before it.
+    crawls: bool,
     /// The lanes beside it that are open.
     open: OpenLanes,
 }
@@ -53,6 +57,8 @@ pub(crate) struct ClosureAhead {
     pub(crate) ahead: f64,
     /// Distance to the last place where it can be on its way out of the lane [m].
     pub(crate) way_out: f64,
+    /// What closes it crawls on: nobody has to stop before it.
+    pub(crate) crawls: bool,
     open: OpenLanes,
 }
 
@@ -78,7 +84,11 @@ impl Closures {
             let Position { chain, x } = network.start_of(lanelet);
             let reach = [x, x + network.lanelets[lanelet.at()].length()];
             let known_from = Navigator::SIGNED;
-            closures.add(network, chain, Stretch { reach, leaves_until: x, known_from, open: [None; 2] });
+            closures.add(
+                network,
+                chain,
+                Stretch { reach, leaves_until: x, known_from, crawls: false, open: [None; 2] },
+            );
         }
         let lanelets = closures.clone();
         for (number, (stretches, _)) in closures.of_chain.iter_mut().enumerate() {
@@ -93,7 +103,8 @@ impl Closures {
             if let Some(lanes) = open.iter().flatten().map(|it| it.0).min() {
                 let ([rear, front], known_from) = (it.reach, Standing::SEEN);
                 let (reach, leaves_until) = ([it.kept(lanes), front], rear - Standing::LEAST_ROOM);
-                closures.add(network, it.chain, Stretch { reach, leaves_until, known_from, open });
+                let stretch = Stretch { reach, leaves_until, known_from, crawls: it.crawls, open };
+                closures.add(network, it.chain, stretch);
             }
         }
         let order = |a: &Stretch, b: &Stretch| a.reach[0].total_cmp(&b.reach[0]);
@@ -125,7 +136,14 @@ impl Closures {
             !is_closed && !standing.iter().any(stands_there)
         };
         let junctions = &network.junctions;
-        let waits = [rear - Standing::ROOM_BEFORE, rear];
+        let passing = if it.crawls { Standing::PASSING } else { 0.0 };
+        if it.crawls
+            && front + passing > network.chain(chain).length
+            && network.chain(chain).following.len() != 1
+        {
+            return [None; 2];
+        }
+        let waits = [rear - Standing::ROOM_BEFORE, rear + passing];
         let mut zones = junctions.on(chain).crossings.iter().map(|it| junctions.reach(*it));
         if zones.any(|it| overlap([it.start, it.end], waits)) {
             return [None; 2];
@@ -218,6 +236,8 @@ impl Standing {
     /// A lane beside it is open if nothing stands there so far before its rear and beyond its front [m] (ours).
     pub(crate) const ROOM_BEFORE: f64 = Standing::ROOM + Standing::ROOM_FOR_A_LANE;
     const ROOM_BEYOND: f64 = 25.0;
+    /// Road without a junction on which drivers can pass what crawls [m] (ours).
+    const PASSING: f64 = 200.0;
     /// The least of it on which a car can steer out [m] (ours).
     const LEAST_ROOM: f64 = 5.0;
     /// More of it for each lane that is closed beside it, too [m] (ours).
@@ -267,14 +287,19 @@ impl Navigator {
         }
         let mut closed_until = f64::NEG_INFINITY;
         for leg in self.walk(network, destination, chain, -x).within(within) {
-            for Stretch { reach, leaves_until, known_from, open } in self.closures.on(leg.chain) {
+            for Stretch { reach, leaves_until, known_from, crawls, open } in self.closures.on(leg.chain) {
                 let [begin, end] = reach.map(|it| leg.start + it);
                 let last = leg.start + leaves_until;
                 let ahead = if begin < 0.0 && last > 0.0 { last } else { begin };
                 if ahead < 0.0 || ahead - closed_until < JOINED {
                     closed_until = if end > 0.0 { end } else { closed_until };
                 } else if ahead <= within.min(*known_from) {
-                    return Some(ClosureAhead { ahead, way_out: last.max(ahead), open: *open });
+                    return Some(ClosureAhead {
+                        ahead,
+                        way_out: last.max(ahead),
+                        crawls: *crawls,
+                        open: *open,
+                    });
                 }
             }
         }

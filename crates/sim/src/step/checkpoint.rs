@@ -20,7 +20,7 @@ use crate::state::driver_parameters::{DriverParameters, ParameterChanges};
 use crate::state::goal::Destination;
 use crate::state::traffic::Traffic;
 use crate::step::seal::{sealed, unsealed};
-use crate::step::see_standing::standing;
+use crate::step::see_standing::seen;
 use crate::step::world::World;
 
 /// Why a world cannot go on from a checkpoint.
@@ -101,7 +101,8 @@ impl World {
         work.reset_counters(counters);
         roads.restore(guided);
         roads.close(closed);
-        roads.note_standing(standing(traffic));
+        let seen = seen(roads.network(), traffic);
+        roads.note_standing(seen);
         Ok(())
     }
 

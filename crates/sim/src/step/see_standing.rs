@@ -1,10 +1,11 @@
 //! Drivers see what stands in a lane from afar, as they see a closed lane: a vehicle that a user drives, and that
 //! stands although its driver would go, and an obstacle.
 
-use laneweave_network::{ChainIndex, Position};
+use laneweave_network::{ChainIndex, Network, Position};
 
 use crate::route::closures::Standing;
 use crate::route::roads::Roads;
+use crate::state::control::{Control, Longitudinal};
 use crate::state::externals::{External, Kind};
 use crate::state::lane::VehicleId;
 use crate::state::traffic::Traffic;
@@ -17,9 +18,13 @@ pub(crate) fn see_standing(roads: &mut Roads, traffic: &mut Traffic) {
     if traffic.externals().is_empty() && roads.navigator().closures().standing().is_empty() {
         return;
     }
-    let standing = standing(traffic);
-    if standing != roads.navigator().closures().standing() {
-        close(roads, traffic, |roads| roads.note_standing(standing));
+    let (now, before) = (seen(roads.network(), traffic), roads.navigator().closures().standing());
+    let stands = |it: &&Standing| !it.crawls;
+    if !now.iter().filter(stands).eq(before.iter().filter(stands)) {
+        close(roads, traffic, |roads| roads.note_standing(now));
+    } else if now != before {
+        // Where something crawls now, drivers see at their next turns.
+        roads.note_standing(now);
     }
     note_passable(roads, traffic);
 }
@@ -34,8 +39,15 @@ fn note_passable(roads: &Roads, traffic: &mut Traffic) {
     }
 }
 
+/// What stands and what crawls in lanes.
+pub(super) fn seen(network: &Network, traffic: &Traffic) -> Vec<Standing> {
+    let mut all = standing(traffic);
+    all.extend(crawling(network, traffic));
+    all
+}
+
 /// What stands in lanes. A recorded vehicle goes on as it was recorded.
-pub(super) fn standing(traffic: &Traffic) -> Vec<Standing> {
+fn standing(traffic: &Traffic) -> Vec<Standing> {
     let externals = traffic.externals().all();
     let longest = traffic.clock().steps(PATIENCE);
     let idle_for = |it: &External| if it.control.holds_still() { 1 } else { longest };
@@ -60,11 +72,31 @@ pub(super) fn standing(traffic: &Traffic) -> Vec<Standing> {
     externals.iter().zip(found).filter(|it| it.1).flat_map(|it| reaches(traffic, it.0)).collect()
 }
 
+/// Vehicles that users hold at less than half of the limit. Drivers look where they are now and then.
+fn crawling(network: &Network, traffic: &Traffic) -> Vec<Standing> {
+    /// Share of the limit below which a vehicle crawls, and the way after which drivers look again [m]; ours.
+    const SLOW: f64 = 0.5;
+    const WAY: f64 = 25.0;
+    let crawls = |it: &&External| match it.control {
+        Control::Drive { longitudinal: Longitudinal::Speed(speed), .. } => {
+            speed > 0.0 && speed < SLOW * network.chain(it.at.chain).limit(it.at.x)
+        }
+        _ => false,
+    };
+    let crawling = traffic.externals().all().iter().filter(crawls);
+    let seen = crawling.flat_map(|it| reaches(traffic, it));
+    let rough = |it: Standing| {
+        let [rear, front] = it.reach.map(|x| (x / WAY).floor() * WAY);
+        Standing { reach: [rear, front + WAY], crawls: true, ..it }
+    };
+    seen.map(rough).collect()
+}
+
 /// What an external vehicle covers of lanes.
 fn reaches(traffic: &Traffic, external: &External) -> Vec<Standing> {
     let of = |chain: ChainIndex, index: usize| {
         let it = &traffic.lane(chain).motions()[index];
-        Standing { chain, reach: [it.rear(), it.x] }
+        Standing { chain, reach: [it.rear(), it.x], crawls: false }
     };
     let mut all = Vec::new();
     if let Some(Spot { chain, index }) = spot(traffic, external) {

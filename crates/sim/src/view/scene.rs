@@ -183,6 +183,12 @@ impl<'a> Scene<'a> {
         !closures.is_empty() && closures.cover(chain, x)
     }
 
+    /// The next closed stretch ahead of a vehicle, if it may have to stop before it.
+    #[inline]
+    pub(crate) fn end_of_lane_ahead(&self, from: Viewpoint) -> Option<ClosureAhead> {
+        self.closure_ahead(from).filter(|it| !it.crawls)
+    }
+
     /// The next closed stretch ahead of a vehicle, if it may have to brake for it.
     #[inline]
     pub(crate) fn closure_ahead(&self, from: Viewpoint) -> Option<ClosureAhead> {

@@ -125,6 +125,7 @@ fn what_stands_in_lanes_is_part_of_a_saved_world() {
     put(&mut one, CAR);
     let far = obstacle(&one, 2600.0, [2.0, 2.0]);
     one.put_obstacle(1, &far).expect("its place is free");
+    put_tractor(&mut one, 0, 400.0);
     (0..900).for_each(|_| one.step());
     let mut other = world("motorway_2_lanes.osm", 900.0, 6, 1);
     other.restore(&one.save().expect("there is memory")).expect("it is the same world");
@@ -230,4 +231,50 @@ fn an_obstacle_comes_only_where_whoever_drives_there_can_stay_clear_of_it() {
     for (x, size) in [(-1.0, [4.0, 2.0]), (50.0, [0.0, 2.0]), (1e4, [4.0, 2.0]), (50.0, [4.0, f64::NAN])] {
         assert!(world.obstacle_in_lane(lanelet, x, size).is_err(), "{x} {size:?}");
     }
+}
+
+/// Puts a tractor on this lane of a motorway, and holds it at 25 km/h.
+fn put_tractor(world: &mut World, lane: usize, x: f64) -> VehicleId {
+    let lanelet = across(world, x)[lane];
+    let start =
+        world.network().lanelets.iter().find(|it| it.id == lanelet).expect("it is there").centre.at(0.0).x;
+    let (class, style) = (Class::Truck, "conservative".into());
+    let (position_m, speed_mps, destination) = (x - start, 7.0, None);
+    let vehicle = NewVehicle { lanelet, position_m, speed_mps, class, style, destination };
+    let id = world.command(Command::Insert(vehicle)).expect("its place is free").expect("it has an id");
+    let control = Control::Drive { longitudinal: Longitudinal::Speed(7.0), lateral: Lateral::Keep };
+    world.command(Command::Control(id, control)).expect("it is possible");
+    id
+}
+
+#[test]
+fn whoever_passes_a_tractor_leaves_its_lane_early_and_loses_a_few_seconds() {
+    for (map, demand) in [("motorway_2_lanes.osm", 1200.0), ("motorway_3_lanes.osm", 2400.0)] {
+        let free = drive(map, demand, 21, &[]);
+        let mut world = world(map, demand, 21, 1);
+        let tractor = put_tractor(&mut world, 0, 300.0);
+        let mut spent = 0.0;
+        for _ in 0..9000 {
+            world.step();
+            spent += 0.1 * world.vehicles().filter(|it| it.id() != tractor).count() as f64;
+        }
+        let lost = (spent - free.spent) / free.world.counts().left as f64;
+        assert!(lost < 10.0, "{map}: {lost} s");
+        let counters = world.counters();
+        assert_eq!((counters.collisions, counters.overlaps, counters.stuck), (0, 0, 0), "{map}");
+    }
+}
+
+#[test]
+fn behind_tractors_side_by_side_a_queue_crawls_and_does_not_stop() {
+    let mut world = world("motorway_2_lanes.osm", 300.0, 22, 1);
+    for lane in 0..2 {
+        put_tractor(&mut world, lane, 300.0);
+    }
+    for _ in 0..2500 {
+        world.step();
+        let slowest = world.vehicles().map(|it| it.speed()).fold(f64::INFINITY, f64::min);
+        assert!(slowest > 1.0, "{slowest} m/s");
+    }
+    assert_eq!((world.counters().collisions, world.counters().overlaps), (0, 0));
 }
