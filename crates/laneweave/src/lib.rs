@@ -75,9 +75,9 @@ pub mod scenario {
 pub mod sim {
     pub use laneweave_sim::{
         Account, Across, Act, Clock, Command, Commanded, Counters, Counts, Destination, DriverState,
-        FIRST_INSERTED, Goal, InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator, Obstacle, Place,
-        Places, Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle, Viewpoint,
-        perceive,
+        FIRST_INSERTED, FIRST_OBSTACLE, Goal, InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator,
+        Obstacle, Place, Places, Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord,
+        Vehicle, Viewpoint, perceive,
     };
 }
 

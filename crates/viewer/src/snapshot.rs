@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use laneweave::sim::FIRST_OBSTACLE;
 use laneweave::{LightState, Side};
 use serde::Deserialize;
 
@@ -61,6 +62,11 @@ impl Seen {
     /// Whether it is a ghost: a vehicle of the twin.
     pub fn is_ghost(&self) -> bool {
         self.is_external && self.is_recorded
+    }
+
+    /// Whether it is no vehicle, but an obstacle.
+    pub fn is_obstacle(&self) -> bool {
+        self.id >= i64::from(FIRST_OBSTACLE)
     }
 }
 

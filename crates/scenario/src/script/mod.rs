@@ -223,7 +223,8 @@ impl Script {
             let name = planned.name.as_ref().map_or(String::new(), |it| format!(" ({it})"));
             lines.push(format!("external vehicle {number}{name}: its place was never free"));
         }
-        let never = self.state.obstacles.iter().zip(1..).filter(|it| *it.0 == Stage::Ahead);
+        let never =
+            self.state.obstacles.iter().zip(1..).filter(|it| matches!(it.0, Stage::Waits | Stage::Missed));
         lines.extend(never.map(|it| format!("obstacle {}: its place was never free", it.1)));
         lines
     }

@@ -20,10 +20,14 @@ pub(super) struct Planned {
 pub(super) enum Stage {
     /// It has not come yet.
     Ahead,
+    /// Its place is not free.
+    Waits,
     /// It stands on the road, with this id.
     Stands(VehicleId),
-    /// It was taken away, or its time is over.
+    /// It was taken away.
     Over,
+    /// Its time is over, and its place was never free.
+    Missed,
 }
 
 /// An obstacle as it is planned, if it is possible in `world`.
@@ -67,19 +71,19 @@ impl Planned {
     /// while until whoever drives behind can stop far enough behind it to go round it.
     pub(super) fn go_on(&self, number: u32, stage: Stage, world: &mut World) -> Stage {
         let (step, patience) = (world.clock().step, world.clock().steps(super::WAITS));
+        let is_over = self.until_step.is_some_and(|it| it <= step);
         match stage {
-            _ if self.until_step.is_some_and(|it| it <= step) => {
-                if let Stage::Stands(id) = stage {
-                    world.remove_obstacle(id);
-                }
+            Stage::Stands(id) if is_over => {
+                world.remove_obstacle(id);
                 Stage::Over
             }
-            Stage::Ahead if self.from_step <= step => {
+            Stage::Ahead | Stage::Waits if is_over => Stage::Missed,
+            Stage::Ahead | Stage::Waits if self.from_step <= step => {
                 let waits = step < self.from_step + patience;
                 if waits && !world.has_room_behind_obstacle(&self.what) {
-                    return stage;
+                    return Stage::Waits;
                 }
-                world.put_obstacle(number, &self.what).map_or(stage, Stage::Stands)
+                world.put_obstacle(number, &self.what).map_or(Stage::Waits, Stage::Stands)
             }
             _ => stage,
         }

@@ -143,12 +143,13 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
     if !scene.driver(spot).phase.is_between_lanes() {
         return chosen;
     }
-    let Some(counterpart) = scene.lane_change(spot).counterpart else { return chosen };
     let id = scene.motion(spot).id;
-    let Some(index) = scene.lanes[counterpart.chain.at()].find(id, counterpart.x) else { return chosen };
-    let lane_end = lane_end::lane_end(scene, counterpart.chain);
-    let there = Spot { chain: counterpart.chain, index };
-    let other = beside_others(scene, there, in_lane(scene, clock, there, lane_end));
+    let other = scene.lane_change(spot).counterpart.and_then(|it| {
+        let index = scene.lanes[it.chain.at()].find(id, it.x)?;
+        let (there, lane_end) = (Spot { chain: it.chain, index }, lane_end::lane_end(scene, it.chain));
+        Some(beside_others(scene, there, in_lane(scene, clock, there, lane_end)))
+    });
+    let other = other.unwrap_or(chosen);
     let lower = if other.acceleration < chosen.acceleration { other } else { chosen };
     let per_metre = chosen.per_metre.max(other.per_metre);
     let acceleration = lower.acceleration.min(steering::slowly_enough(scene, clock, spot, per_metre));

@@ -6,6 +6,7 @@ use laneweave_network::ChainIndex;
 use crate::driver::consider::consider;
 use crate::driver::gap::{Hindrance, gap, room_to_yield};
 use crate::driver::plan::{Ask, Outbox, Plan, Request};
+use crate::driver::steering;
 use crate::state::lane::Phase;
 use crate::state::moment::Moment;
 use crate::view::scene::{Scene, Spot};
@@ -92,15 +93,17 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     const MUCH_HARDER: f64 = 2.0;
     let (motion, driver, lane_change) = (scene.motion(spot), scene.driver(spot), scene.lane_change(spot));
     let Some(counterpart) = lane_change.counterpart.filter(|_| lane_change.progress < 0.5) else { return };
-    // In a lane that ends here, or that is closed ahead, the driver could no longer stop before the end.
+    // In a lane that ends here, or that is closed ahead, the driver could no longer stop before the end, or be back.
     let here = scene.network.chain(spot.chain);
     let end = here.is_lane_drop.then(|| here.driven_until(driver.class.is_long()) - motion.x);
     let closure = scene.end_of_lane_ahead(scene.viewpoint(spot)).map(|it| it.ahead);
-    let cannot_stop = |left: f64| deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER;
-    if end.into_iter().chain(closure).any(cannot_stop) {
+    let style = scene.style_of(driver);
+    let way_back = steering::way_back(&style.manner, motion, lane_change);
+    let goes_on =
+        |left: f64| left < way_back || deceleration_to_avoid(left.max(0.1), motion.speed, 0.0) > MUCH_HARDER;
+    if end.into_iter().chain(closure).any(goes_on) {
         return;
     }
-    let style = scene.style_of(driver);
     let forced = |from| {
         scene.ahead(from).map_or(0.0, |it| deceleration_to_avoid(it.gap.max(0.1), motion.speed, it.speed))
     };

@@ -3,7 +3,6 @@
 use laneweave_network::{Chain, ChainIndex};
 
 use crate::driver::steering::leaves_its_lane;
-use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot};
 
 /// Where a lane ends beside another one, along a chain [m].
@@ -53,8 +52,7 @@ pub(crate) fn lane_end(scene: &Scene, chain: ChainIndex) -> Option<LaneEnd> {
     }
 }
 
-/// Whether the vehicle's centre has left the lane: then it need not react to its end.
+/// Whether the vehicle's centre has left the lane, or never will be in it: then it need not react to its end.
 pub(super) fn is_leaving(scene: &Scene, spot: Spot) -> bool {
-    let driver = scene.driver(spot);
-    driver.is_shadow && driver.phase == Phase::Changes && scene.lane_change(spot).progress >= 0.5
+    scene.driver(spot).is_shadow && leaves_its_lane(scene, spot)
 }

@@ -2,13 +2,14 @@
 //! be over on the road that is left: before what stands ahead in either lane, before the end of the lane that it
 //! leaves, and before the next place to stop.
 
+use laneweave_models::Manner;
 use laneweave_models::follow::Ahead;
 
 use crate::driver::lane_end::lane_end;
 use crate::driver::last_place::HARDLY_MOVES;
 use crate::driver::stopping::COMFORTABLE_BRAKING;
 use crate::state::clock::Clock;
-use crate::state::lane::{DriverState, Kinematics, Phase};
+use crate::state::lane::{DriverState, Kinematics, LaneChangeState, Phase};
 use crate::state::standstill::{ROOM_AT_A_STOP, STANDSTILL};
 use crate::view::pose::crossing;
 use crate::view::scene::{Scene, Spot};
@@ -20,8 +21,10 @@ pub(super) const NEAR_THE_END: f64 = 0.15;
 const DONE: f64 = 0.15;
 /// They steer as if this share of the change were left beside the one that is: so they are done, not nearly done; ours.
 const MORE: f64 = 0.03;
-/// Behind what stands nearer than this nobody begins to steer out of a lane [m]; ours.
-const LEAST_ROAD: f64 = 1.0;
+/// With less road than this nobody begins to steer out of a lane [m]; ours: less than a driver at standstill leaves.
+const LEAST_ROAD: f64 = 0.5;
+/// What is kept of the road before the end of a lane, to begin to steer out of it [m]; ours.
+const KEPT: f64 = 1.0;
 
 /// Whether the lane of the entry at `spot` is the one that its vehicle leaves.
 pub(super) fn leaves_its_lane(scene: &Scene, spot: Spot) -> bool {
@@ -31,6 +34,11 @@ pub(super) fn leaves_its_lane(scene: &Scene, spot: Spot) -> bool {
         Phase::Aborts => driver.is_shadow,
         Phase::Cruises | Phase::Wants => false,
     }
+}
+
+/// Road that a driver needs who calls off a change, at most [m].
+pub(super) fn way_back(manner: &Manner, motion: &Kinematics, lane_change: &LaneChangeState) -> f64 {
+    KEPT + f64::from(lane_change.progress) * crossing(manner, motion, lane_change).least_way()
 }
 
 /// Whether a driver in a lane change does not keep its distance from its leader, which stands, but creeps up to it.
@@ -47,6 +55,7 @@ pub(super) fn has_road(scene: &Scene, spot: Spot) -> bool {
     }
     let from = scene.viewpoint(spot);
     let leader = scene.ahead(from).filter(|it| it.speed < STANDSTILL).map(|it| it.gap);
+    // Before an end only half of the change has to be done.
     let closure = scene.end_of_lane_ahead(from).map(|it| 2.0 * it.way_out);
     let end = lane_end(scene, spot.chain).map(|it| 2.0 * (it.drawn - scene.motion(spot).x));
     leader.is_none_or(|it| it - NEAR_A_VEHICLE - DONE >= LEAST_ROAD)
@@ -55,7 +64,7 @@ pub(super) fn has_road(scene: &Scene, spot: Spot) -> bool {
 
 /// What emergency braking leaves of the road before the end of a lane [m]: who stops there has still to leave it.
 pub(super) fn kept_to_begin(scene: &Scene, spot: Spot) -> f64 {
-    if scene.driver(spot).phase.is_between_lanes() { 0.0 } else { LEAST_ROAD }
+    if scene.driver(spot).phase.is_between_lanes() { 0.0 } else { KEPT }
 }
 
 /// The share of its lane change that the vehicle with the entry at `spot` has to do on each metre, because of its
@@ -77,7 +86,7 @@ pub(super) fn per_metre(scene: &Scene, spot: Spot, [leader, end, stop]: [Option<
     let stop = stop.map(|it| until(rest, it.gap - ROOM_AT_A_STOP));
     let crosses = driver.phase == Phase::Changes && to_cross > 0.0 && leaves_its_lane(scene, spot);
     let end = end.and_then(|it| match driver.phase {
-        Phase::Aborts if !driver.is_shadow => Some(until(rest, it.gap - LEAST_ROAD)),
+        Phase::Aborts if !driver.is_shadow => Some(until(rest, it.gap - KEPT)),
         _ => crosses.then(|| until(to_cross, it.gap - NEAR_THE_END)),
     });
     let ahead = lane_change.last_place - scene.motion(spot).x;

@@ -86,21 +86,36 @@ pub(super) struct Body {
 
 /// The vehicle that could not stay clear of `body`, or of which that one could not stay clear.
 pub(super) fn in_the_way(world: &World, body: &Body) -> Option<VehicleId> {
-    let Body { chain, x, length, speed, destination, is_long } = *body;
-    let (scene, dt) = (world.scene(), world.clock().dt);
-    let nobody = Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, is_long };
-    let id = |spot| scene.motion(spot).id;
-    // Seen from its rear bumper, a vehicle beside it is ahead of it.
-    let rear = scene.viewpoint_at(nobody, chain, x - length);
-    if let Some(ahead) = scene.ahead(rear)
-        && !is_secure(speed, Ahead { gap: ahead.gap - length, ..ahead }, dt)
-    {
-        return scene.leader_spot(rear).map(id);
+    ahead_in_the_way(world, body).or_else(|| behind_in_the_way(world, body))
+}
+
+impl Body {
+    /// What somebody would see who is in its lane.
+    fn viewpoint(&self) -> Viewpoint {
+        let Body { chain, x, destination, is_long, .. } = *self;
+        Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, is_long }
     }
-    let follower = scene.follower(scene.viewpoint_at(nobody, chain, x))?;
+}
+
+/// The vehicle ahead of which `body` could not stay clear.
+pub(super) fn ahead_in_the_way(world: &World, body: &Body) -> Option<VehicleId> {
+    let Body { chain, x, length, speed, .. } = *body;
+    let scene = world.scene();
+    // Seen from its rear bumper, a vehicle beside it is ahead of it.
+    let rear = scene.viewpoint_at(body.viewpoint(), chain, x - length);
+    let ahead = scene.ahead(rear)?;
+    let is_clear = is_secure(speed, Ahead { gap: ahead.gap - length, ..ahead }, world.clock().dt);
+    if is_clear { None } else { scene.leader_spot(rear).map(|it| scene.motion(it).id) }
+}
+
+/// The vehicle behind that could not stay clear of `body`.
+pub(super) fn behind_in_the_way(world: &World, body: &Body) -> Option<VehicleId> {
+    let scene = world.scene();
+    let follower = scene.follower(scene.viewpoint_at(body.viewpoint(), body.chain, body.x))?;
     let behind = driver_of(&scene, follower.spot);
-    let gap = follower.distance - length;
-    (!is_secure(behind.pace.speed, Ahead::steady(gap, speed), dt)).then(|| id(follower.spot))
+    let ahead = Ahead::steady(follower.distance - body.length, body.speed);
+    let is_clear = is_secure(behind.pace.speed, ahead, world.clock().dt);
+    (!is_clear).then(|| scene.motion(follower.spot).id)
 }
 
 impl World {

@@ -13,7 +13,7 @@ use crate::state::lane::VehicleId;
 use crate::state::setup::Placement;
 use crate::state::vehicle::Class;
 use crate::step::command_error::{CommandError, in_range};
-use crate::step::insert::{self, in_the_way};
+use crate::step::insert::{self, ahead_in_the_way, behind_in_the_way};
 use crate::step::move_externals::{clear_obstacles, on_one_level, put_obstacle};
 use crate::step::obstacle::Moved;
 use crate::step::put_vehicle::entry;
@@ -134,11 +134,14 @@ impl World {
     }
 
     /// A vehicle that could not stay clear of something that stands on these stretches of lanes, and `behind` them [m].
+    /// Obstacles may stand beside each other, and within each other.
     fn near(&self, footprints: &[Footprint], behind: f64) -> Option<VehicleId> {
         footprints.iter().find_map(|it| {
             let length = it.to - it.from + behind;
             let (speed, destination, is_long) = (0.0, None, false);
-            in_the_way(self, &insert::Body { chain: it.chain, x: it.to, length, speed, destination, is_long })
+            let body = insert::Body { chain: it.chain, x: it.to, length, speed, destination, is_long };
+            let ahead = ahead_in_the_way(self, &body).filter(|it| *it < FIRST_OBSTACLE);
+            ahead.or_else(|| behind_in_the_way(self, &body)).filter(|it| *it < FIRST_OBSTACLE)
         })
     }
 }

@@ -19,7 +19,7 @@ use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
-use crate::state::externals::External;
+use crate::state::externals::{External, Kind};
 use crate::state::lane::{Entry, VehicleId};
 use crate::state::moment::Moment;
 use crate::state::random::Random;
@@ -206,7 +206,8 @@ impl World {
 
     /// The ids of the external vehicles, which users drive, in order.
     pub fn externals(&self) -> impl Iterator<Item = VehicleId> {
-        self.traffic.externals().all().iter().map(|it| it.id)
+        let all = self.traffic.externals().all().iter();
+        all.filter(|it| it.kind != Kind::Obstacle).map(|it| it.id)
     }
 
     /// The commands that were carried out in the last step, in their order.

@@ -202,7 +202,7 @@ impl Page {
             time_s: snapshot.time_s,
             is_playing: snapshot.is_playing,
             factor: snapshot.factor,
-            vehicles: snapshot.vehicles.iter().filter(|it| !it.is_ghost()).count(),
+            vehicles: snapshot.vehicles.iter().filter(|it| !it.is_ghost() && !it.is_obstacle()).count(),
             waiting: snapshot.waiting,
         };
         let is_old = self.clock.is_none_or(|(told, at)| {

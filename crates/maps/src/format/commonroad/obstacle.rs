@@ -163,7 +163,7 @@ impl StaticObstacle {
     pub(super) fn obstacle(&self) -> Result<Obstacle, Problem> {
         let problem = |what: String, remedy| element::problem("obstacle", self.id, self.line, what, remedy);
         if !self.shape.is_usable() {
-            let what = "its first shape is not a rectangle or circle, so it is left out";
+            let what = "its first shape is not a rectangle or circle of a usable size, so it is left out";
             return Err(problem(what.into(), "give it a rectangle with length and width in m"));
         }
         let (at, heading) = self

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use laneweave::Simulation;
 use laneweave::record::{End, Record, fingerprint};
 use laneweave::run::Run;
-use laneweave::scenario::{Obstacle, Origin, Scenario};
+use laneweave::scenario::{External, Obstacle, Origin, Scenario};
+use laneweave::{Class, Simulation};
 use laneweave_studies::branch::Twins;
 use laneweave_test_data::map;
 
@@ -114,11 +114,24 @@ fn what_stands_in_the_map_stands_on_its_lanes_from_the_start() {
 }
 
 #[test]
-fn one_that_finds_no_place_is_told() {
-    let mut own = with(vec![load(), Obstacle { from_s: 300.0, until_s: None, ..load() }]);
+fn one_that_finds_no_place_is_told_and_one_that_comes_later_is_not() {
+    let later = Obstacle { from_s: 300.0, until_s: None, ..load() };
+    let mut own = with(vec![load(), later, Obstacle { lanelet: 10, ..load() }]);
+    own.external = vec![External {
+        name: None,
+        time_s: 0.0,
+        lanelet: 10,
+        position_m: 60.0,
+        speed_mps: 0.0,
+        class: Class::Car,
+        style: "conservative".into(),
+        destination: None,
+        held_speed_mps: Some(0.0),
+        keeps_lane: true,
+    }];
     own.output.dir = folder("obstacle-late");
     let ended = Run::begin(&own, &Origin::default(), "a test").and_then(|it| it.complete(|_| true));
-    assert_eq!(ended.expect("it ends").warnings, ["obstacle 2: its place was never free"]);
+    assert_eq!(ended.expect("it ends").warnings, ["obstacle 3: its place was never free"]);
 }
 
 #[test]
