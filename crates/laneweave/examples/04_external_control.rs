@@ -15,11 +15,11 @@ pub fn main() -> Result<(), Fault> {
         style: "conservative".into(),
         destination: Some(49),
     })?;
-    let (longitudinal, lateral) = (Longitudinal::Speed(10.0), Lateral::Change(Side::Left));
+    let (longitudinal, lateral) = (Longitudinal::Speed(20.0), Lateral::Change(Side::Left));
     simulation.control(ego, Control::Drive { longitudinal, lateral })?;
 
     let mut changes = Vec::new();
-    while simulation.time_s() < 180.0 {
+    while simulation.time_s() < 90.0 {
         for event in simulation.step() {
             if let Event::LaneChange(it) = event
                 && it.vehicle == ego
@@ -42,11 +42,11 @@ pub fn main() -> Result<(), Fault> {
     );
 
     assert!(changes.len() == 1 && changes[0].side == Side::Left && changes[0].is_completed);
-    assert!(state.is_external && (state.speed_mps - 10.0).abs() < 1e-9);
+    assert!(state.is_external && (state.speed_mps - 20.0).abs() < 1e-9 && behind > 0);
 
     // Its own driver drives it again, as fast as it likes.
     simulation.control(ego, Control::DRIVER)?;
-    simulation.run(210.0)?;
+    simulation.run(120.0)?;
     assert!(simulation.vehicle(ego).is_none_or(|it| !it.is_external && it.speed_mps > 20.0));
     Ok(())
 }

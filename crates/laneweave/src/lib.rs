@@ -76,8 +76,8 @@ pub mod sim {
     pub use laneweave_sim::{
         Account, Across, Act, Clock, Command, Commanded, Counters, Counts, Destination, DriverState,
         FIRST_INSERTED, FIRST_OBSTACLE, Goal, InnerPlace, Kinematics, LaneChangeState, LaneSight, Navigator,
-        Obstacle, Place, Places, Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord,
-        Vehicle, Viewpoint, perceive,
+        Place, Places, Purpose, Random, Rate, Scene, Seen, Snapshot, Spot, Target, TripRecord, Vehicle,
+        Viewpoint, perceive,
     };
 }
 

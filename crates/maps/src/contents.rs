@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Point, Rectangle};
 
 /// The contents of a map file, whether or not traffic uses them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,19 +15,9 @@ pub struct Contents {
     pub crosswalks: Vec<Vec<Point>>,
     /// Lines that are painted on roads, or stand beside them. Empty if the format has none.
     pub markings: Vec<Marking>,
-    /// What stands on or beside the roads and is no part of them. Empty if the format has none.
-    pub obstacles: Vec<Obstacle>,
-}
-
-/// Something that stands on or beside a road, such as a parked car.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Obstacle {
-    /// The pose of its centre.
-    pub pose: Pose,
-    /// Length, along its heading [m].
-    pub length: f64,
-    /// Width [m].
-    pub width: f64,
+    /// The ground of what stands on or beside the roads and is no part of them, such as parked cars. Empty if the
+    /// format has none.
+    pub obstacles: Vec<Rectangle>,
 }
 
 /// A line that is painted on a road, or stands beside it.

@@ -30,7 +30,7 @@ mod size;
 pub mod xml;
 
 pub use check::check;
-pub use contents::{Contents, Marking, MarkingPaint, Obstacle};
+pub use contents::{Contents, Marking, MarkingPaint};
 pub use drawing::Drawing;
 pub use error::MapError;
 pub use format::{FORMATS, Format, commonroad, lanelet2};

@@ -64,7 +64,6 @@ pub use state::vehicle::{Body, Class, Fleet};
 pub use step::checkpoint::CheckpointError;
 pub use step::columns::Columns;
 pub use step::command_error::CommandError;
-pub use step::put_obstacle::Obstacle;
 pub use step::recorded::{RecordedPose, RecordedVehicle};
 pub use step::seal::{sealed, unsealed};
 pub use step::vehicle::Vehicle;

@@ -1,8 +1,8 @@
 //! Questions about the traffic, which change nothing.
 
-use laneweave_network::Position;
+use laneweave_network::{Position, Rectangle};
 use laneweave_scenario::Fault;
-use laneweave_sim::{Columns, Intention, Obstacle, Scene, Vehicle, VehicleId};
+use laneweave_sim::{Columns, Intention, Scene, Vehicle, VehicleId};
 
 use super::{Simulation, VehicleState};
 
@@ -27,8 +27,8 @@ impl Simulation {
         self.world().vehicles()
     }
 
-    /// The obstacles on the road, with their ids.
-    pub fn obstacles(&self) -> impl Iterator<Item = (VehicleId, Obstacle)> + '_ {
+    /// The ids of the obstacles on the road, and the ground that they cover.
+    pub fn obstacles(&self) -> impl Iterator<Item = (VehicleId, Rectangle)> + '_ {
         self.world().obstacles()
     }
 

@@ -19,6 +19,8 @@ impl Crossing {
     const LENGTHS: f64 = 1.5;
     /// A slower vehicle does not move sideways [m/s]; ours.
     const STANDS: f64 = 0.1;
+    /// However little road is left, the vehicle may be this fast, so that it gets on [m/s]; ours.
+    const CREEPS: f64 = 0.15;
 
     /// Distance over which the vehicle changes lanes while it is slow [m].
     #[inline]
@@ -49,7 +51,7 @@ impl Crossing {
     /// The highest speed at which the share `per_metre` of the change can be done on each metre [m/s].
     #[inline]
     pub fn fastest(self, per_metre: f64) -> f64 {
-        (1.0 / (self.duration * per_metre)).max(1.5 * Crossing::STANDS)
+        (1.0 / (self.duration * per_metre)).max(Crossing::CREEPS)
     }
 
     #[inline]

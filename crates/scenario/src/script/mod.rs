@@ -14,6 +14,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use laneweave_network::Rectangle;
 use laneweave_sim::{Command, Control, NewVehicle, VehicleId, World};
 use laneweave_study::seconds;
 
@@ -62,7 +63,7 @@ impl Script {
     pub(crate) fn of(
         scenario: &Scenario,
         origin: &Origin,
-        standing: &[laneweave_maps::Obstacle],
+        standing: &[Rectangle],
         player: Option<Player>,
         world: &World,
     ) -> Result<Script, Fault> {

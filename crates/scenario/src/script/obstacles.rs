@@ -1,5 +1,6 @@
 //! The obstacles of a scenario: when they come, and when they are taken away.
 
+use laneweave_network::Rectangle;
 use laneweave_sim::{CommandError, VehicleId, World};
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,7 @@ use crate::scenario::{LONGEST, Obstacle};
 /// An obstacle of the scenario.
 #[derive(Clone)]
 pub(super) struct Planned {
-    what: laneweave_sim::Obstacle,
+    ground: Rectangle,
     from_step: u32,
     until_step: Option<u32>,
 }
@@ -46,7 +47,7 @@ pub(super) fn planned(obstacle: &Obstacle, world: &World) -> Result<Planned, Wro
         let what = format!("it is taken away at {} s, and comes at {from_s} s", until_s.unwrap_or_default());
         return Err(("until_s", what, "choose a later time, or leave it out".into()));
     }
-    let what = world.obstacle_in_lane(lanelet, position_m, [length_m, width_m]).map_err(|error| {
+    let ground = world.obstacle_in_lane(lanelet, position_m, [length_m, width_m]).map_err(|error| {
         let key = match error {
             CommandError::Number { what: "a length", .. } => "length_m",
             CommandError::Number { .. } => "width_m",
@@ -56,15 +57,14 @@ pub(super) fn planned(obstacle: &Obstacle, world: &World) -> Result<Planned, Wro
         let Fault { what, remedy, .. } = refused("", &error);
         (key, what, remedy)
     })?;
-    Ok(Planned { what, from_step, until_step })
+    Ok(Planned { ground, from_step, until_step })
 }
 
 impl Planned {
     /// One that stands in the map all the time, if it touches a lane of `world`.
-    pub(super) fn of_map(obstacle: &laneweave_maps::Obstacle, world: &World) -> Option<Planned> {
-        let laneweave_maps::Obstacle { pose, length, width } = *obstacle;
-        let what = laneweave_sim::Obstacle { pose, length, width };
-        world.is_in_lanes(&what).then_some(Planned { what, from_step: 0, until_step: None })
+    pub(super) fn of_map(ground: &Rectangle, world: &World) -> Option<Planned> {
+        let planned = Planned { ground: *ground, from_step: 0, until_step: None };
+        world.is_in_lanes(ground).then_some(planned)
     }
 
     /// What becomes of the obstacle with this `number` before the next step of `world`. One that comes waits for a
@@ -80,10 +80,10 @@ impl Planned {
             Stage::Ahead | Stage::Waits if is_over => Stage::Missed,
             Stage::Ahead | Stage::Waits if self.from_step <= step => {
                 let waits = step < self.from_step + patience;
-                if waits && !world.has_room_behind_obstacle(&self.what) {
+                if waits && !world.has_room_behind_obstacle(&self.ground) {
                     return Stage::Waits;
                 }
-                world.put_obstacle(number, &self.what).map_or(Stage::Waits, Stage::Stands)
+                world.put_obstacle(number, &self.ground).map_or(Stage::Waits, Stage::Stands)
             }
             _ => stage,
         }

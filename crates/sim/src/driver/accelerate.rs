@@ -193,9 +193,10 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
         }
         None => before_the_stop,
     };
-    let per_metre = match driver.phase.is_between_lanes() {
-        true => steering::per_metre(scene, spot, [true_leader, end, stop]),
-        false => 0.0,
+    let per_metre = if driver.phase.is_between_lanes() {
+        steering::per_metre(scene, spot, [true_leader, end, stop])
+    } else {
+        0.0
     };
     // A lower positive acceleration is no braking.
     let by_kinematics = acceleration < wish && acceleration < 0.0;

@@ -22,26 +22,9 @@ use crate::step::world::World;
 /// The least and the greatest length or width of an obstacle [m].
 const SIZES: [f64; 2] = [0.1, 60.0];
 
-/// Something that stands on the road and is no vehicle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Obstacle {
-    /// The pose of its centre.
-    pub pose: Pose,
-    /// Length, along its heading [m].
-    pub length: f64,
-    /// Width [m].
-    pub width: f64,
-}
-
-impl Obstacle {
-    fn rectangle(self) -> Rectangle {
-        let Obstacle { pose, length, width } = self;
-        Rectangle { pose, length, width }
-    }
-}
-
 impl World {
-    /// An obstacle in the middle of a lane, with its far end `position_m` along the lanelet with this id [m].
+    /// The ground of an obstacle in the middle of a lane, with its far end `position_m` [m] along the lanelet with this
+    /// id.
     ///
     /// # Errors
     /// If there is no such lanelet, or no such place in it, or a size is not in its range.
@@ -50,7 +33,7 @@ impl World {
         lanelet: i64,
         position_m: f64,
         [length, width]: [f64; 2],
-    ) -> Result<Obstacle, CommandError> {
+    ) -> Result<Rectangle, CommandError> {
         let index = self.lanelet_with(lanelet)?;
         in_range("a length", length, SIZES, "m")?;
         in_range("a width", width, SIZES, "m")?;
@@ -66,7 +49,7 @@ impl World {
             return Err(refused("most of it would be before the beginning of the lane; choose more".into()));
         }
         let centre = &network.chain(chain).centre;
-        Ok(Obstacle { pose: Pose { at: centre.at(middle), heading: centre.heading(middle) }, length, width })
+        Ok(Rectangle { pose: Pose { at: centre.at(middle), heading: centre.heading(middle) }, length, width })
     }
 
     /// Puts an obstacle with a `number` of its own on the road, and returns its id. It stands there until it is
@@ -77,10 +60,14 @@ impl World {
     ///
     /// # Panics
     /// If there is an obstacle with this number.
-    pub fn put_obstacle(&mut self, number: u32, obstacle: &Obstacle) -> Result<VehicleId, Option<VehicleId>> {
+    pub fn put_obstacle(
+        &mut self,
+        number: u32,
+        obstacle: &Rectangle,
+    ) -> Result<VehicleId, Option<VehicleId>> {
         let id = FIRST_OBSTACLE + number;
         assert!(self.traffic.externals().of(id).is_none(), "obstacle {number} stands there already");
-        let mut rectangle = obstacle.rectangle();
+        let mut rectangle = *obstacle;
         let footprints = on_one_level(&self.roads, &mut rectangle);
         let Some(first) = footprints.first() else { return Err(None) };
         if let Some(other) = self.near(&footprints, 0.0) {
@@ -95,8 +82,8 @@ impl World {
         let control = Control::Pose { x: at.x, y: at.y, heading, speed: 0.0 };
         let mut external = External::new(id, control, Position::new(chain, x));
         external.kind = Kind::Obstacle;
-        let Obstacle { length, width, .. } = *obstacle;
-        external.body = Some(Body { pose: rectangle.pose, length, width, speed: 0.0, off_road: None });
+        let Rectangle { pose, length, width } = rectangle;
+        external.body = Some(Body { pose, length, width, speed: 0.0, off_road: None });
         let moved = Moved { rectangle, before: None, speed: 0.0, has_known_speed: true, way: 0.0 };
         for footprint in &footprints {
             external.obstacles.push(put_obstacle(&self.roads, &mut self.traffic, &entry, &moved, footprint));
@@ -106,13 +93,13 @@ impl World {
     }
 
     /// Whether an obstacle would touch a lane.
-    pub fn is_in_lanes(&self, obstacle: &Obstacle) -> bool {
-        !on_one_level(&self.roads, &mut obstacle.rectangle()).is_empty()
+    pub fn is_in_lanes(&self, obstacle: &Rectangle) -> bool {
+        !on_one_level(&self.roads, &mut { *obstacle }).is_empty()
     }
 
     /// Whether drivers behind could stop so far behind an obstacle that they can go round it.
-    pub fn has_room_behind_obstacle(&self, obstacle: &Obstacle) -> bool {
-        let footprints = on_one_level(&self.roads, &mut obstacle.rectangle());
+    pub fn has_room_behind_obstacle(&self, obstacle: &Rectangle) -> bool {
+        let footprints = on_one_level(&self.roads, &mut { *obstacle });
         self.near(&footprints, Standing::ROOM_BEFORE).is_none()
     }
 
@@ -124,13 +111,10 @@ impl World {
         }
     }
 
-    /// The obstacles on the road, with their ids.
-    pub fn obstacles(&self) -> impl Iterator<Item = (VehicleId, Obstacle)> + '_ {
+    /// The ids of the obstacles on the road, and the ground that they cover.
+    pub fn obstacles(&self) -> impl Iterator<Item = (VehicleId, Rectangle)> + '_ {
         let all = self.traffic.externals().all().iter().filter(|it| it.kind == Kind::Obstacle);
-        all.filter_map(|it| {
-            let Body { pose, length, width, .. } = it.body?;
-            Some((it.id, Obstacle { pose, length, width }))
-        })
+        all.filter_map(|it| Some((it.id, it.body.as_ref()?.rectangle())))
     }
 
     /// A vehicle that could not stay clear of something that stands on these stretches of lanes, and `behind` them [m].

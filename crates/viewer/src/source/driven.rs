@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use laneweave::network::Rectangle;
 use laneweave::scenario::{Origin, Scenario, read_map};
-use laneweave::sim::{DriverState, LaneChangeState, Obstacle, Vehicle};
+use laneweave::sim::{DriverState, LaneChangeState, Vehicle};
 use laneweave::{Class, Event, Fault, Phase, Side, Simulation, VehicleId};
 
 use laneweave_studies::branch::Parting;
@@ -213,7 +214,7 @@ fn signals(driver: &DriverState, lane_change: &LaneChangeState) -> Option<Side> 
 }
 
 /// An obstacle, as grey as what is recorded.
-fn obstacle((id, it): (VehicleId, Obstacle)) -> Seen {
+fn obstacle((id, it): (VehicleId, Rectangle)) -> Seen {
     Seen {
         id: i64::from(id),
         at: [it.pose.at.x, it.pose.at.y, it.pose.at.z],

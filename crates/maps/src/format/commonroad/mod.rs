@@ -57,12 +57,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     let mut problems = Vec::new();
     let document = document::parse(bytes, &mut problems)?;
     let mut contents = Contents::default();
-    for it in &document.obstacles {
-        match it.obstacle() {
-            Ok(obstacle) => contents.obstacles.push(obstacle),
-            Err(problem) => problems.push(problem),
-        }
-    }
+    contents.obstacles.extend(document.obstacles.iter().filter_map(|it| it.ground(&mut problems)));
     let (elements, places, mut lanelets) =
         shaped(&document, options.law, &mut contents.limits_of_law, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);

@@ -1,10 +1,9 @@
 //! Obstacles of a CommonRoad file: their shapes and positions, which moving and standing ones share, and those that
 //! stand.
 
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Point, Pose, Rectangle};
 
 use super::element;
-use crate::contents::Obstacle;
 use crate::problem::Problem;
 use crate::shape::MAXIMUM_COORDINATE;
 
@@ -159,19 +158,30 @@ impl StaticObstacle {
         }
     }
 
-    /// What stands there, or why that is not known.
-    pub(super) fn obstacle(&self) -> Result<Obstacle, Problem> {
+    /// The ground that it covers, if that is known.
+    pub(super) fn ground(&self, problems: &mut Vec<Problem>) -> Option<Rectangle> {
         let problem = |what: String, remedy| element::problem("obstacle", self.id, self.line, what, remedy);
+        let ObstacleShape { length, width, count, .. } = self.shape;
         if !self.shape.is_usable() {
             let what = "its first shape is not a rectangle or circle of a usable size, so it is left out";
-            return Err(problem(what.into(), "give it a rectangle with length and width in m"));
+            problems.push(problem(what.into(), "give it a rectangle with length and width in m"));
+            return None;
         }
-        let (at, heading) = self
-            .place
-            .known()
-            .map_err(|it| problem(format!("{it}, so it is left out"), "give it an initialState"))?;
-        let ([x, y], heading) = self.shape.centre(at, heading);
-        let ObstacleShape { length, width, .. } = self.shape;
-        Ok(Obstacle { pose: Pose { at: Point::new(x, y, 0.0), heading }, length, width })
+        if count > 1 {
+            problems.push(problem(
+                format!("only the first of its {count} shapes is used"),
+                "give it one rectangle",
+            ));
+        }
+        match self.place.known() {
+            Ok((at, heading)) => {
+                let ([x, y], heading) = self.shape.centre(at, heading);
+                Some(Rectangle { pose: Pose { at: Point::new(x, y, 0.0), heading }, length, width })
+            }
+            Err(why) => {
+                problems.push(problem(format!("{why}, so it is left out"), "give it an initialState"));
+                None
+            }
+        }
     }
 }

@@ -204,7 +204,8 @@ fn what_stands_there_is_a_content_of_the_map() {
     let round = "<type>pillar</type><shape><circle><radius>0.4</radius></circle></shape>";
     let shapeless = "<type>unknown</type><shape><polygon><point><x>1</x><y>1</y></point></polygon></shape>";
     let lost = "<staticObstacle id='6'><shape><circle><radius>1</radius></circle></shape></staticObstacle>\n";
-    let inside = obstacle("staticObstacle", 1, car)
+    let twice = car.replace("</shape>", "<circle><radius>1</radius></circle></shape>");
+    let inside = obstacle("staticObstacle", 1, &twice)
         + &obstacle("obstacle", 2, &format!("<role>static</role>{round}"))
         + &obstacle("obstacle", 3, &format!("<role>dynamic</role>{car}"))
         + &obstacle("dynamicObstacle", 4, car)
@@ -218,7 +219,8 @@ fn what_stands_there_is_a_content_of_the_map() {
     assert!((at.x - 50.0 - 2.0 * 0.5f64.cos()).hypot(at.y - 2.0 - 2.0 * 0.5f64.sin()) < 1e-12, "{at:?}");
     assert_eq!((found[1].pose.at.x, found[1].pose.at.y, found[1].pose.heading), (50.0, 2.0, 0.5));
     let problems: Vec<String> = map.problems.iter().map(ToString::to_string).collect();
-    assert_eq!(problems.len(), 2, "{problems:?}");
-    assert!(problems[0].starts_with("obstacle 5 (line 12): its first shape is not a rectangle or circle"));
-    assert!(problems[1].starts_with("obstacle 6 (line 13): it has no orientation, so it is left out"));
+    assert_eq!(problems.len(), 3, "{problems:?}");
+    assert!(problems[0].starts_with("obstacle 1 (line 8): only the first of its 2 shapes is used"));
+    assert!(problems[1].starts_with("obstacle 5 (line 12): its first shape is not a rectangle or circle"));
+    assert!(problems[2].starts_with("obstacle 6 (line 13): it has no orientation, so it is left out"));
 }

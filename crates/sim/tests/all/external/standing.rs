@@ -1,7 +1,7 @@
 //! Something stands in a lane: drivers see it from afar, leave its lane, and pass.
 
-use laneweave_network::Position;
-use laneweave_sim::{Class, Command, Control, Lateral, Longitudinal, NewVehicle, Obstacle, VehicleId, World};
+use laneweave_network::{Position, Rectangle};
+use laneweave_sim::{Class, Command, Control, Lateral, Longitudinal, NewVehicle, VehicleId, World};
 
 use crate::external::closed_lanes::across;
 use crate::external::worlds::world;
@@ -148,7 +148,7 @@ fn a_lanelet_that_is_closed_beside_it_leaves_no_way_round() {
 }
 
 /// An obstacle of this size with its far end at `x` on the right lane of a straight motorway.
-fn obstacle(world: &World, x: f64, size: [f64; 2]) -> Obstacle {
+fn obstacle(world: &World, x: f64, size: [f64; 2]) -> Rectangle {
     let lanelet = across(world, x)[0];
     let start =
         world.network().lanelets.iter().find(|it| it.id == lanelet).expect("it is there").centre.at(0.0).x;
