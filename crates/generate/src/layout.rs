@@ -8,7 +8,7 @@ use super::control::{Control, regulate};
 use super::junction::{Arm, connect, setback};
 use super::movement::{Lanes, Movement, usual};
 use super::path::Path;
-use super::ring::{SETBACK, usual_ring};
+use super::ring::{compass_ring, usual_ring};
 use super::street::{End, Mouth, Profile, pose, street};
 
 /// Junctions and the streets between them.
@@ -80,7 +80,7 @@ pub(super) fn draw(canvas: &mut Canvas, layout: &Layout) {
         match &junction.kind {
             Kind::Crossing(control) => crossing(canvas, *control, &usual(lanes)),
             Kind::Marked(control, movements) => crossing(canvas, *control, movements),
-            Kind::Roundabout => usual_ring(canvas, junction.at, &arms),
+            Kind::Roundabout => compass_ring(canvas, usual_ring(junction.at), &arms),
         }
     }
 }
@@ -116,13 +116,13 @@ impl Layout {
         match *place {
             Place::Edge(pose) | Place::Road(_, pose) => pose,
             Place::Arm(number, towards) => {
-                let Junction { at: (x, y), kind } = &self.junctions[number];
+                let Junction { at, kind } = &self.junctions[number];
                 let away = match kind {
-                    Kind::Roundabout => SETBACK,
+                    Kind::Roundabout => usual_ring(*at).setback(),
                     _ => setback(&lanes[number], towards),
                 };
                 let (east, north) = towards.step();
-                pose(x + away * east, y + away * north, heading(towards))
+                pose(at.0 + away * east, at.1 + away * north, heading(towards))
             }
         }
     }

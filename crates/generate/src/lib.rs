@@ -30,5 +30,5 @@ pub use large_town::large_town;
 pub use motorway::{Motorway, Weaving, motorway};
 pub use own::own_maps;
 pub use random::{Element, Hazard, RandomMap, random};
-pub use roundabout::roundabout;
+pub use roundabout::{Roundabout, roundabout};
 pub use town::town;

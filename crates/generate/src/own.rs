@@ -3,7 +3,7 @@
 use laneweave_maps::Drawing;
 use laneweave_network::DrivingSide;
 
-use super::{Control, GenerateError, Grid, Motorway, approach, grid, motorway, roundabout, town};
+use super::{Control, GenerateError, Grid, Motorway, Roundabout, approach, grid, motorway, roundabout, town};
 
 /// File names in the folder `maps`, and their contents.
 ///
@@ -33,7 +33,7 @@ pub fn own_maps() -> Result<Vec<(&'static str, Drawing)>, GenerateError> {
         ("priority.osm", grid(&single(Control::Priority))?),
         ("right_before_left.osm", grid(&single(Control::RightBeforeLeft))?),
         ("all_way_stop.osm", grid(&single(Control::AllWayStop))?),
-        ("roundabout.osm", roundabout(right)),
+        ("roundabout.osm", roundabout(&Roundabout::default())?),
         ("approach.osm", approach(right)),
         ("town.osm", town(right)),
     ])

@@ -24,6 +24,10 @@ impl Default for Yielding {
 
 /// Share of the critical gap that is accepted when patience ends (ours).
 const LEAST_SHARE: f64 = 0.6;
+/// The same at a roundabout, where it is accepted after this share of the patience (ours). Critical gaps there fall
+/// like this with the waiting time in Polus, Lazar, Livneh (2003), from memory.
+const LEAST_AT_A_ROUNDABOUT: f64 = 0.5;
+const IMPATIENT_AFTER: f64 = 1.0 / 3.0;
 /// Time that is left between two vehicles in one place [s] (ours).
 pub const MARGIN: f64 = 0.5;
 
@@ -31,9 +35,18 @@ impl Yielding {
     /// Whether a driver who has `waited` [s], and needs `needed` [s] to be out of the way, goes before a vehicle that
     /// arrives in `lag` [s].
     pub fn accepts(&self, lag: f64, needed: f64, waited: f64) -> bool {
-        let impatience = (waited / self.patience).clamp(0.0, 1.0);
-        let critical = self.critical_gap * (1.0 - impatience * (1.0 - LEAST_SHARE));
-        lag >= critical.max(needed + MARGIN)
+        lag >= self.critical(waited / self.patience, LEAST_SHARE).max(needed + MARGIN)
+    }
+
+    /// The same for a driver who enters a roundabout.
+    pub fn accepts_at_roundabout(&self, lag: f64, needed: f64, waited: f64) -> bool {
+        let impatience = waited / (IMPATIENT_AFTER * self.patience);
+        lag >= self.critical(impatience, LEAST_AT_A_ROUNDABOUT).max(needed + MARGIN)
+    }
+
+    /// The critical gap of a driver with this impatience, of which the share `least` remains where it is 1 [s].
+    fn critical(&self, impatience: f64, least: f64) -> f64 {
+        self.critical_gap * (1.0 - impatience.clamp(0.0, 1.0) * (1.0 - least))
     }
 }
 
@@ -66,6 +79,12 @@ mod tests {
         // A driver who has waited for all of its patience accepts 3 s, but not before it can be out of the way.
         assert!(driver.accepts(3.0, 2.5, 45.0));
         assert!(!driver.accepts(3.0, 2.6, 45.0));
+        // At a roundabout it accepts 2.5 s after a third of that time.
+        assert!(driver.accepts_at_roundabout(2.5, 2.0, 15.0));
+        assert!(!driver.accepts_at_roundabout(2.5, 2.1, 45.0));
+        assert!(
+            driver.accepts_at_roundabout(3.75, 2.0, 7.5) && !driver.accepts_at_roundabout(3.74, 2.0, 7.5)
+        );
     }
 
     #[test]

@@ -199,6 +199,7 @@ Examples:
 pub(super) const ROUNDABOUT: &str = "\
 Examples:
   laneweave generate roundabout ring.osm
+  laneweave generate roundabout --arms 5 --lanes 2 --radius 32 ring.osm
   laneweave generate roundabout --driving-side left ring-left.osm";
 
 pub(super) const APPROACH: &str = "\

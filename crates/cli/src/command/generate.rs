@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
 use laneweave::generate::{
-    Arterial, Control, GenerateError, Grid, Hazard, Motorway, approach, arterial, grid, large_town, motorway,
-    random, roundabout, town,
+    Arterial, Control, GenerateError, Grid, Hazard, Motorway, Roundabout, approach, arterial, grid,
+    large_town, motorway, random, roundabout, town,
 };
 use laneweave::maps::{Drawing, FileKind, is_compressed};
 use laneweave::network::DrivingSide;
@@ -30,9 +30,9 @@ pub(crate) enum Kind {
     /// A main street of two lanes in each direction, and one-lane streets that cross it at traffic lights.
     #[command(after_help = examples::ARTERIAL)]
     Arterial(ArterialArguments),
-    /// A roundabout of one lane with four arms.
+    /// A roundabout of one or two lanes.
     #[command(after_help = examples::ROUNDABOUT)]
-    Roundabout(Plain),
+    Roundabout(RoundaboutArguments),
     /// Three lanes before a junction: A leads left, B left and straight on, C straight on.
     #[command(after_help = examples::APPROACH)]
     Approach(Plain),
@@ -123,6 +123,21 @@ pub(crate) struct ArterialArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct RoundaboutArguments {
+    /// Number of arms, 3 to 6.
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    arms: usize,
+    /// Number of lanes around it, and on each arm in each direction, 1 or 2.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    lanes: usize,
+    /// Radius of the middle of its ring [m], up to 60 [default: the smallest for these arms and lanes].
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    radius: Option<f64>,
+    #[command(flatten)]
+    plain: Plain,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct TownArguments {
     /// Streets in each direction of a larger town, 3 to 20 [default: the town with the motorway].
     #[arg(long, value_name = "N")]
@@ -173,7 +188,7 @@ impl Kind {
             Kind::Weaving(it) => ("weaving", &it.plain.file),
             Kind::Grid(it) => ("grid", &it.plain.file),
             Kind::Arterial(it) => ("arterial", &it.plain.file),
-            Kind::Roundabout(plain) => ("roundabout", &plain.file),
+            Kind::Roundabout(it) => ("roundabout", &it.plain.file),
             Kind::Approach(plain) => ("approach", &plain.file),
             Kind::Town(it) => ("town", &it.plain.file),
             Kind::Random(it) => ("random", &it.file),
@@ -197,7 +212,7 @@ impl Kind {
             Kind::Weaving(it) => it.draw(),
             Kind::Grid(it) => it.draw(),
             Kind::Arterial(it) => it.draw(),
-            Kind::Roundabout(it) => Ok(roundabout(it.side())),
+            Kind::Roundabout(it) => it.draw(),
             Kind::Approach(it) => Ok(approach(it.side())),
             Kind::Town(it) => match it.size {
                 Some(size) => large_town(size, it.plain.side()),
@@ -271,6 +286,17 @@ impl ArterialArguments {
             junctions: self.junctions,
             block_length_m: self.block_length,
             speed_limit_kmh: self.speed_limit,
+            driving_side: self.plain.side(),
+        })
+    }
+}
+
+impl RoundaboutArguments {
+    fn draw(&self) -> Result<Drawing, GenerateError> {
+        roundabout(&Roundabout {
+            arms: self.arms,
+            lanes: self.lanes,
+            radius_m: self.radius,
             driving_side: self.plain.side(),
         })
     }

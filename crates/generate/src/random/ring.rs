@@ -44,6 +44,6 @@ pub(super) fn roundabout(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let arm =
         |it: Arm| RingArm { heading: it.heading, arriving: vec![it.arriving], leaving: vec![it.leaving] };
     let arms: Vec<RingArm> = arms.into_iter().map(arm).collect();
-    ring(&mut pen.canvas, Ring { middle: (middle.x, middle.y), radius, touch }, &arms);
+    ring(&mut pen.canvas, Ring { middle: (middle.x, middle.y), radius, touch, lanes: 1 }, &arms);
     Some(Built { mouths, hazard: Some(Hazard::Roundabout) })
 }

@@ -5,5 +5,6 @@ mod large_town;
 mod motorways;
 mod own_maps;
 mod random_maps;
+mod roundabouts;
 mod towns;
 mod work;

@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use laneweave_generate::{Control, Grid, Motorway, approach, grid, motorway, own_maps, roundabout, town};
+use laneweave_generate::{
+    Control, Grid, Motorway, Roundabout, approach, grid, motorway, own_maps, roundabout, town,
+};
 use laneweave_maps::{Drawing, Law, Map, ReadOptions, Rule, RuleKind, check, lanelet2, load};
 use laneweave_network::{DrivingSide, Gate, Point};
 use laneweave_test_data::maps;
@@ -23,7 +25,11 @@ fn drawings(driving_side: DrivingSide) -> Vec<Drawing> {
         grid(&Grid { rows: 2, columns: 1, lanes, control, driving_side, ..Grid::default() })
             .expect("the grid is possible")
     });
-    let others = [approach(driving_side), roundabout(driving_side), town(driving_side)];
+    let others = [
+        approach(driving_side),
+        roundabout(&Roundabout { driving_side, ..Roundabout::default() }).expect("it can be drawn"),
+        town(driving_side),
+    ];
     [motorway(&everything).expect("the motorway is possible")]
         .into_iter()
         .chain(grids)

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use laneweave_generate::{Arterial, Control, Grid, approach, arterial, grid, roundabout, town};
+use laneweave_generate::{Arterial, Control, Grid, Roundabout, approach, arterial, grid, roundabout, town};
 use laneweave_maps::{Drawing, Map, NodeIndex, RuleKind, Sense, lanelet2, routes};
 use laneweave_network::{Beside, DrivingSide, Gate, Lanelet, LaneletIndex, Polyline, Side};
 
@@ -31,7 +31,8 @@ fn refusal(change: impl Fn(&mut Grid)) -> String {
 /// All maps with right-angled junctions and roundabouts.
 fn towns() -> Vec<Map> {
     let right = DrivingSide::Right;
-    let mut drawings = vec![town(right), approach(right), roundabout(right)];
+    let mut drawings =
+        vec![town(right), approach(right), roundabout(&Roundabout::default()).expect("it can be drawn")];
     drawings
         .extend((1..=3).map(|lanes| grid(&Grid { lanes, ..Grid::default() }).expect("the grid is possible")));
     drawings.push(arterial(&Arterial::default()).expect("the street is possible"));
@@ -263,7 +264,7 @@ fn an_all_way_stop_stops_all_and_right_before_left_has_no_sign() {
 
 #[test]
 fn every_way_into_a_roundabout_gives_way_to_the_ring() {
-    let map = map(&roundabout(DrivingSide::Right));
+    let map = map(&roundabout(&Roundabout::default()).expect("it can be drawn"));
     for entrance in entrances(&map).concat() {
         // Vehicles also come back around the roundabout.
         let reached = reachable(&map, entrance, false);

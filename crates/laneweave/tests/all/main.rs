@@ -18,6 +18,7 @@ mod house;
 mod incidents;
 mod lane_drop;
 mod null_model_control;
+mod roundabouts;
 mod simulated;
 mod simulation;
 mod styles;

@@ -24,6 +24,8 @@ pub struct Junctions {
     pub(crate) chains: Vec<OnChain>,
     /// Where turns begin, by chain [m].
     pub(crate) turns: Vec<Vec<f64>>,
+    /// Which chains are part of a roundabout.
+    pub(crate) in_roundabout: Vec<bool>,
     /// Where vehicles on other chains are near, by chain.
     pub(crate) nearby: Vec<Vec<Nearby>>,
 }
@@ -72,6 +74,12 @@ impl Junctions {
     /// within 30 m. Turns around a roundabout do not count.
     pub fn turns(&self, chain: ChainIndex) -> &[f64] {
         self.turns.get(chain.at()).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether `chain` is part of a roundabout: its lane leads back to it, turns once around, and is round.
+    #[inline]
+    pub fn is_in_roundabout(&self, chain: ChainIndex) -> bool {
+        self.in_roundabout.get(chain.at()).is_some_and(|it| *it)
     }
 
     /// Stations of the first and the last place on `chain` where drivers may have to stop [m]; the first is beyond

@@ -2,8 +2,8 @@
 //! lane changes and entrances.
 //!
 //! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zones.rs`), who has
-//! priority in each (`precedence.rs`), where drivers stop (`places.rs`), where they turn (`turning.rs`), and the
-//! signal programs (`lights.rs`). Who holds which zone is the simulator's.
+//! priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), where they
+//! turn (`turning.rs`), and the signal programs (`lights.rs`). Who holds which zone is the simulator's.
 
 mod contact;
 mod kinship;
@@ -11,6 +11,7 @@ mod lights;
 mod nearby;
 mod places;
 mod precedence;
+mod ring;
 mod turning;
 mod zones;
 
@@ -21,6 +22,7 @@ use crate::junction::{
 use crate::lanelet::Side;
 use crate::network::Network;
 use kinship::Kinship;
+use ring::Ring;
 
 /// On this length of a lane before a junction a change is too short [m]. Ours.
 const ROOM_TO_CHANGE: f64 = 15.0;
@@ -93,7 +95,8 @@ impl Network {
     }
 
     /// Stretches of a chain without lane changes [m]: before and within junctions, including those right before its
-    /// start, and while it is still one lane with others that fork off.
+    /// start, and while it is still one lane with others that fork off. Around a roundabout also those right beyond its
+    /// end: drivers choose their lane there on the way in.
     fn taken_on(&self, index: ChainIndex) -> Vec<[f64; 2]> {
         let chain = self.chain(index);
         let before = chain.previous.iter().flat_map(|it| {
@@ -101,7 +104,12 @@ impl Network {
             self.junctions.extents(*it).into_iter().map(move |extent| extent.map(|station| station - length))
         });
         let fork = (chain.fork_clearance > 0.0).then_some([0.0, chain.fork_clearance]);
-        let junctions = self.junctions.extents(index).into_iter().chain(before);
+        let is_round = self.junctions.is_in_roundabout(index);
+        let beyond = chain.following.iter().filter(|_| is_round).flat_map(|it| {
+            let extents = self.junctions.extents(*it).into_iter();
+            extents.map(|extent| extent.map(|station| station + chain.length))
+        });
+        let junctions = self.junctions.extents(index).into_iter().chain(before).chain(beyond);
         junctions.map(|[start, end]| [start - ROOM_TO_CHANGE, end]).chain(fork).collect()
     }
 }
@@ -111,7 +119,9 @@ fn junctions(network: &Network, regulations: &Regulations) -> Junctions {
     let kinship = Kinship::of(network);
     let contacts = contact::contacts(network);
     let mut zones = zones::zones(&kinship, &contacts.of_pairs);
-    precedence::settle(network, &kinship, regulations, &mut zones);
+    let rings = ring::rings(network);
+    let in_ring: Vec<bool> = rings.iter().map(|it| *it != Ring::No).collect();
+    precedence::settle(network, &kinship, regulations, &in_ring, &mut zones);
     let mut chains = vec![OnChain::EMPTY; network.chains.len()];
     for (zone, index) in zones.iter().zip(0..) {
         for (reach, side) in zone.sides.iter().zip(0..) {
@@ -127,7 +137,8 @@ fn junctions(network: &Network, regulations: &Regulations) -> Junctions {
     junctions.place_stops(network, regulations);
     junctions.note_places();
     junctions.look_beyond(network);
-    junctions.turns = turning::turns(network);
+    junctions.turns = turning::turns(network, &in_ring);
+    junctions.in_roundabout = rings.iter().map(|it| *it == Ring::Round).collect();
     junctions.nearby = nearby::nearby(network, &contacts.of_pairs);
     let (made, comparisons) = lights::made_plans(network, &junctions);
     junctions.comparisons += comparisons;

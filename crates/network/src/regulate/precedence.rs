@@ -18,7 +18,13 @@ struct Marks {
 }
 
 /// Determines which side has priority in each zone.
-pub(super) fn settle(network: &Network, kinship: &Kinship, regulations: &Regulations, zones: &mut [Zone]) {
+pub(super) fn settle(
+    network: &Network,
+    kinship: &Kinship,
+    regulations: &Regulations,
+    in_ring: &[bool],
+    zones: &mut [Zone],
+) {
     if zones.is_empty() {
         return;
     }
@@ -30,13 +36,15 @@ pub(super) fn settle(network: &Network, kinship: &Kinship, regulations: &Regulat
         }
     }
     let orders = orders(network, regulations);
-    let in_ring: Vec<bool> =
-        (0..network.chains.len()).map(|it| is_in_ring(network, ChainIndex(it as u32))).collect();
+    // Also who leaves it is still in it: where an inner lane is left across the outer one, who comes first goes first.
+    let is_in_roundabout = |chain: ChainIndex| {
+        in_ring[chain.at()] || network.chain(chain).previous.iter().any(|it| in_ring[it.at()])
+    };
     for zone in zones.iter_mut() {
         let chains = zone.sides.map(|it| it.chain);
         zone.precedence = by_priority(network, kinship, &orders, chains)
             .or_else(|| by_stop_signs(network, kinship, &marks, chains))
-            .or_else(|| first_of(chains.map(|it| in_ring[it.at()])))
+            .or_else(|| first_of(chains.map(is_in_roundabout)))
             .unwrap_or_else(|| by_shape(network, zone));
     }
 }
@@ -128,43 +136,6 @@ fn by_shape(network: &Network, zone: &Zone) -> Precedence {
 pub(super) fn turned(from: f64, to: f64) -> f64 {
     let angle = (to - from).rem_euclid(2.0 * PI);
     if angle > PI { angle - 2.0 * PI } else { angle }
-}
-
-/// Whether a chain is part of a roundabout: a path of at most 250 m leads back to it and turns once around, to the
-/// side on which traffic does not drive.
-pub(super) fn is_in_ring(network: &Network, chain: ChainIndex) -> bool {
-    const LONGEST: f64 = 250.0;
-    const ONCE_AROUND: std::ops::Range<f64> = 1.6 * PI..2.4 * PI;
-    let near_sign = network.driving_side.overtaking().sign();
-    let turn_of = |it: ChainIndex| {
-        let points = network.chain(it).centre.points();
-        let headings: Vec<f64> =
-            points.windows(2).map(|it| (it[1].y - it[0].y).atan2(it[1].x - it[0].x)).collect();
-        let within: f64 = headings.windows(2).map(|it| turned(it[0], it[1])).sum();
-        (headings[0], within, headings[headings.len() - 1])
-    };
-    if network.chain(chain).length > LONGEST {
-        return false;
-    }
-    // Each chain is reached once, along the shortest path.
-    let mut open = vec![(network.chain(chain).length, chain, turn_of(chain).1, turn_of(chain).2)];
-    let mut seen = vec![chain];
-    while let Some(nearest) = (0..open.len()).min_by(|a, b| open[*a].0.total_cmp(&open[*b].0)) {
-        let (length, at, turn, heading) = open.swap_remove(nearest);
-        for next in &network.chain(at).following {
-            let (first, within, last) = turn_of(*next);
-            let joint = turned(heading, first);
-            if *next == chain {
-                return ONCE_AROUND.contains(&(near_sign * (turn + joint)));
-            }
-            let further = length + network.chain(*next).length;
-            if further <= LONGEST && !seen.contains(next) {
-                seen.push(*next);
-                open.push((further, *next, turn + joint + within, last));
-            }
-        }
-    }
-    false
 }
 
 /// The lanelets near a chain whose rules its drivers follow: its own and those that lead to it.

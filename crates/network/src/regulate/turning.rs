@@ -1,6 +1,6 @@
 //! Where drivers turn: where a lane changes its direction by more than 30° within 30 m, at a junction or not. Ours.
 
-use super::precedence::{TURNS, is_in_ring, turned};
+use super::precedence::{TURNS, turned};
 use crate::chain::ChainIndex;
 use crate::geometry::Polyline;
 use crate::network::Network;
@@ -11,11 +11,11 @@ const SAMPLE: f64 = 5.0;
 const SAMPLES: usize = 6;
 
 /// For each chain the stations at which its turns begin [m], in order. Driving on around a roundabout is no turn.
-pub(super) fn turns(network: &Network) -> Vec<Vec<f64>> {
+pub(super) fn turns(network: &Network, in_ring: &[bool]) -> Vec<Vec<f64>> {
     let chains = (0..network.chains.len() as u32).map(ChainIndex);
     let turns_of = |chain: ChainIndex| {
         let turns = along(&network.chain(chain).centre);
-        if turns.is_empty() || is_in_ring(network, chain) { Vec::new() } else { turns }
+        if turns.is_empty() || in_ring[chain.at()] { Vec::new() } else { turns }
     };
     chains.map(turns_of).collect()
 }

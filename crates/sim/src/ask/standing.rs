@@ -111,7 +111,7 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
 fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> StandsFor {
     let granted = scene.reservation(spot).map_or(0.0, |it| it.left().max(0.0));
     let from = scene.viewpoint(spot);
-    let ahead = stop_ahead(scene, from, granted, sight(scene.motion(spot).speed));
+    let ahead = stop_ahead(scene, from, granted, sight(scene, spot.chain, scene.motion(spot).speed));
     if granted > stop || ahead.is_none() {
         return StandsFor::After(before_it(scene, spot));
     }

@@ -17,7 +17,8 @@ use crate::state::lane::Lane;
 const MOST_TAKEN: f64 = 0.10;
 /// Minimum gap in front of a vehicle [m].
 const LEAST_GAP: f64 = 2.0;
-/// Roads in loops with less total length than this are a junction, not a town [m] (ours).
+/// Roads in loops with less total length than this, without the lanes of roundabouts, are a junction, not a town [m]
+/// (ours).
 const LEAST_TOWN: f64 = 500.0;
 
 /// Whether the roads of a town core are full.
@@ -34,9 +35,12 @@ impl PerimeterControl {
     /// Perimeter control of `network`, with no vehicle yet; `None` if its roads form no loops of enough length.
     pub fn new(network: &Network) -> Option<PerimeterControl> {
         let is_core = in_the_core(network);
-        let town = network.chains.iter().zip(&is_core).filter(|(_, is_core)| **is_core);
-        let length = town.map(|(it, _)| it.length).sum();
-        (length >= LEAST_TOWN).then_some(PerimeterControl { is_core, length, is_full: false })
+        let core = (0..network.chains.len() as u32).map(ChainIndex).filter(|it| is_core[it.at()]);
+        let length_of = |it: ChainIndex| network.chain(it).length;
+        let roads =
+            core.clone().filter(|it| !network.junctions.is_in_roundabout(*it)).map(length_of).sum::<f64>();
+        let length = core.map(length_of).sum();
+        (roads >= LEAST_TOWN).then_some(PerimeterControl { is_core, length, is_full: false })
     }
 
     /// Whether it belongs to the same core, full or not.

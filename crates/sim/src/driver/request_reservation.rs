@@ -64,7 +64,7 @@ pub(crate) fn request_reservations(
             }
             Err(hindrance @ (PassHindrance::Space | PassHindrance::Roundabout)) => {
                 if !asking.priority.is_patient {
-                    request_space(scene, spot, asking.priority, outbox);
+                    request_space(scene, spot, asking.priority, hindrance, outbox);
                 }
                 if hindrance == PassHindrance::Space && motion.speed < STANDS {
                     let Waiting { since, id, .. } = *waiting;
@@ -79,7 +79,7 @@ pub(crate) fn request_reservations(
             }
             Err(PassHindrance::Light) if starves(scene, asking, &outbox.survey) => {
                 survey_at(scene, &applicant, |_, _| false, &mut outbox.survey);
-                request_space(scene, spot, asking.priority, outbox);
+                request_space(scene, spot, asking.priority, PassHindrance::Light, outbox);
             }
             Err(PassHindrance::Light | PassHindrance::Sign | PassHindrance::Blocked) => {}
         }
@@ -93,16 +93,22 @@ fn starves(scene: &Scene, asking: Asking, survey: &Survey) -> bool {
     waited > STARVES && survey.lights.last().is_some_and(|it| was_green(it.0))
 }
 
-/// Requests space for the driver at `spot`, who has surveyed its route. A driver who enters a roundabout gets a
-/// waiting priority there instead, and does not stop its traffic.
-fn request_space(scene: &Scene, spot: Spot, priority: WaitingPriority, outbox: &mut Outbox) {
+/// Requests space for the driver at `spot`, who has surveyed its route, and has met a `hindrance`. A driver who enters a
+/// roundabout gets a waiting priority there instead, if that is full, and does not stop its traffic.
+fn request_space(
+    scene: &Scene,
+    spot: Spot,
+    priority: WaitingPriority,
+    hindrance: PassHindrance,
+    outbox: &mut Outbox,
+) {
     let Outbox { survey, space_requests, roundabouts, .. } = outbox;
     let way = [spot.chain, survey.section.chain];
-    if scene.reservations.roundabouts.is_entered(way) {
-        roundabouts.push((way, priority));
-    } else {
+    if !scene.reservations.roundabouts.is_entered(way) {
         let sections = sections(scene, scene.viewpoint(spot), survey);
         space_requests.extend(sections.map(|it| (it, priority, survey.needed)));
+    } else if hindrance == PassHindrance::Roundabout {
+        roundabouts.push((way, priority));
     }
 }
 
@@ -121,5 +127,5 @@ fn survey_at(
     out: &mut Survey,
 ) -> bool {
     let granted = applicant.reservation.map_or(0.0, |it| it.left().max(0.0));
-    survey(scene, applicant, [granted, sight(applicant.speed)], is_held, out)
+    survey(scene, applicant, [granted, sight(scene, applicant.from.chain, applicant.speed)], is_held, out)
 }

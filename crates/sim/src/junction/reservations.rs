@@ -10,6 +10,7 @@ use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::state::clock::Clock;
 use crate::state::lane::VehicleId;
+use crate::state::standstill::STANDSTILL;
 
 /// A vehicle has no reservation.
 pub(crate) const NO_RESERVATION: u32 = u32::MAX;
@@ -324,6 +325,11 @@ fn leave_order(queue: &mut Vec<Holder>, slot: u32, side: u8) {
 }
 
 impl Reservation {
+    /// Whether its vehicle stands in the zone that `hold` is about.
+    pub(crate) fn stands_in(&self, hold: &ZoneReservation) -> bool {
+        self.speed < STANDSTILL && self.across(hold).is_some_and(|it| it.enter < self.travelled)
+    }
+
     /// The length of it that remains in front of the vehicle [m].
     pub(crate) fn left(&self) -> f64 {
         self.extent - self.travelled

@@ -1,9 +1,10 @@
-//! Roundabouts: short loops of lanes without lights, on which vehicles queue behind each other all the way round.
+//! Roundabouts, and other short loops of lanes without lights, on which vehicles queue behind each other all the way
+//! round.
 //!
-//! A full roundabout locks: every vehicle waits for the space that the next one occupies. Vehicles that want to enter
-//! it therefore leave part of it free, however long they wait. So the vehicles on it can always move up.
+//! A full loop locks: every vehicle waits for the space that the next one occupies. Vehicles that want to enter it
+//! therefore leave part of it free, however long they wait. So the vehicles on it can always move up.
 
-use laneweave_network::{ChainIndex, Network, Sign};
+use laneweave_network::{ChainIndex, Network, Sign, ZoneKind};
 use serde::{Deserialize, Serialize};
 
 use crate::junction::need::SPARE_SPACE;
@@ -11,96 +12,177 @@ use crate::junction::reservations::Reservations;
 use crate::junction::waiting_priority::WaitingPriority;
 use crate::state::lane::Lane;
 
-/// A roundabout is no longer than this [m] (ours; a roundabout with two lanes has a diameter of some 60 m).
+/// A loop that is no roundabout is no longer than this [m] (ours).
 const LONGEST: f64 = 200.0;
-/// Share of its length that vehicles and the gaps between them may occupy (ours: on a small roundabout space for two
-/// vehicles remains, so that a truck can move up, too).
-const MOST_TAKEN: f64 = 0.4;
+/// Share of the length of its lane that vehicles and the gaps between them may occupy (ours: on a small roundabout
+/// space for two vehicles remains, so that a truck can move up, too). It is less where lanes cross: a vehicle that waits
+/// for another lane holds up its own.
+const MOST_TAKEN: f64 = 0.6;
+const MOST_TAKEN_CROSSED: f64 = 0.4;
 
-/// The roundabouts of a network.
+/// The loops of a network.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Roundabouts {
-    roundabouts: Vec<Roundabout>,
-    /// For each chain the roundabout that it is part of; empty if there are none.
+    loops: Vec<Loop>,
+    /// For each chain the loop that it is part of; empty if there are none.
     of: Vec<Option<u32>>,
+    /// For each chain where it is at a roundabout, if at one; empty if there are none.
+    places: Vec<Option<AtRoundabout>>,
 }
 
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-struct Roundabout {
+/// Where a chain is at a roundabout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum AtRoundabout {
+    On,
+    In,
+    Out,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Loop {
     chains: Vec<ChainIndex>,
     /// Chains that lead into it from outside.
     entries: Vec<ChainIndex>,
+    /// Share of its length that may be occupied.
+    most_taken: f64,
     /// Length of its chains [m].
     length: f64,
     /// The impatient vehicle that has waited longest to enter it.
     priority: Option<WaitingPriority>,
 }
 
+/// What a chain is part of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum PartOf {
+    Nothing,
+    /// A short loop.
+    Loop,
+    /// A lane of a roundabout.
+    Ring,
+}
+
+impl PartOf {
+    fn what(network: &Network, chain: ChainIndex) -> PartOf {
+        if has_light(network, chain) {
+            PartOf::Nothing
+        } else if network.junctions.is_in_roundabout(chain) {
+            PartOf::Ring
+        } else if comes_round(network, chain) {
+            PartOf::Loop
+        } else {
+            PartOf::Nothing
+        }
+    }
+}
+
 impl Roundabouts {
-    /// The roundabouts of `network`: chains that lead back to their starts within a short distance, each with the
-    /// chains of this kind that are linked to it.
+    /// The loops of `network` without lights: chains that lead back to their starts, each with those of its kind that are
+    /// linked to it. So each lane of a roundabout is one of its own.
     pub(crate) fn of(network: &Network) -> Roundabouts {
         let chains = (0..network.chains.len() as u32).map(ChainIndex);
-        let is_on_ring: Vec<bool> = chains.clone().map(|it| comes_round(network, it)).collect();
-        let mut roundabouts = Roundabouts { roundabouts: Vec::new(), of: vec![None; network.chains.len()] };
-        for first in chains.filter(|it| is_on_ring[it.at()]) {
-            if roundabouts.of[first.at()].is_some() {
+        let parts: Vec<PartOf> = chains.clone().map(|it| PartOf::what(network, it)).collect();
+        let count = network.chains.len();
+        let mut found = Roundabouts { loops: Vec::new(), of: vec![None; count], places: vec![None; count] };
+        for first in chains.filter(|it| parts[it.at()] != PartOf::Nothing) {
+            if found.of[first.at()].is_none() {
+                found.add(network, &parts, first);
+            }
+        }
+        if found.loops.is_empty() { Roundabouts::default() } else { found }
+    }
+
+    /// Adds the loop of the chain `first`.
+    fn add(&mut self, network: &Network, parts: &[PartOf], first: ChainIndex) {
+        let number = self.loops.len() as u32;
+        let kind = parts[first.at()];
+        let is_part = |it: &&ChainIndex| parts[it.at()] == kind;
+        let mut new = Loop { most_taken: MOST_TAKEN, ..Loop::default() };
+        let mut open = vec![first];
+        while let Some(chain) = open.pop() {
+            if self.of[chain.at()].replace(number).is_some() {
                 continue;
             }
-            let number = roundabouts.roundabouts.len() as u32;
-            let (mut roundabout, mut open) = (Roundabout::default(), vec![first]);
-            while let Some(chain) = open.pop() {
-                if roundabouts.of[chain.at()].replace(number).is_some() {
-                    continue;
-                }
-                let here = network.chain(chain);
-                roundabout.chains.push(chain);
-                roundabout.length += here.length;
-                let linked = here.following.iter().chain(&here.previous);
-                open.extend(linked.filter(|it| is_on_ring[it.at()] && roundabouts.of[it.at()].is_none()));
-                roundabout.entries.extend(here.previous.iter().filter(|it| !is_on_ring[it.at()]));
+            let here = network.chain(chain);
+            new.chains.push(chain);
+            new.length += here.length;
+            if kind == PartOf::Loop
+                || std::iter::once(&chain).chain(&here.following).any(|it| is_crossed(network, *it))
+            {
+                new.most_taken = MOST_TAKEN_CROSSED;
             }
-            roundabouts.roundabouts.push(roundabout);
+            let linked = here.following.iter().chain(&here.previous).filter(is_part);
+            open.extend(linked.filter(|it| self.of[it.at()].is_none()));
+            new.entries.extend(here.previous.iter().filter(|it| !is_part(it)));
+            if kind == PartOf::Ring {
+                self.places[chain.at()] = Some(AtRoundabout::On);
+                let beside = [(&here.previous, AtRoundabout::In), (&here.following, AtRoundabout::Out)];
+                for (others, place) in beside {
+                    let outside = others.iter().filter(|it| !is_part(it));
+                    outside.for_each(|it| self.places[it.at()] = Some(place));
+                }
+            }
         }
-        if roundabouts.roundabouts.is_empty() { Roundabouts::default() } else { roundabouts }
+        self.loops.push(new);
     }
 
     /// Whether they are those of the same network, with any waiting priorities.
     pub(crate) fn fits(&self, other: &Roundabouts) -> bool {
-        let alike = |(one, other): (&Roundabout, &Roundabout)| {
-            one.chains == other.chains && one.entries == other.entries && one.length == other.length
+        let alike = |(one, other): (&Loop, &Loop)| {
+            Loop { priority: None, ..one.clone() } == Loop { priority: None, ..other.clone() }
         };
         self.of == other.of
-            && self.roundabouts.len() == other.roundabouts.len()
-            && self.roundabouts.iter().zip(&other.roundabouts).all(alike)
+            && self.places == other.places
+            && self.loops.len() == other.loops.len()
+            && self.loops.iter().zip(&other.loops).all(alike)
     }
 
-    /// The roundabout that a vehicle enters from one chain to another.
+    /// The loop that a vehicle enters from one chain to another.
     fn entered(&self, [from, to]: [ChainIndex; 2]) -> Option<u32> {
-        let roundabout = |it: ChainIndex| self.of.get(it.at()).copied().flatten();
-        roundabout(to).filter(|_| roundabout(from).is_none())
+        let number = |it: ChainIndex| self.of.get(it.at()).copied().flatten();
+        let is_outside = || number(from).is_none() || self.is_on(to) && !self.is_on(from);
+        number(to).filter(|_| is_outside())
     }
 
-    /// Whether a vehicle enters a roundabout from one chain to another.
+    fn place(&self, chain: ChainIndex) -> Option<AtRoundabout> {
+        self.places.get(chain.at()).copied().flatten()
+    }
+
+    /// Whether a chain is part of a roundabout.
+    pub(crate) fn is_on(&self, chain: ChainIndex) -> bool {
+        self.place(chain) == Some(AtRoundabout::On)
+    }
+
+    /// Whether a chain leads into a roundabout from outside.
+    pub(crate) fn is_entry(&self, chain: ChainIndex) -> bool {
+        self.place(chain) == Some(AtRoundabout::In)
+    }
+
+    /// Whether a chain is part of a roundabout, leads into it, or out of it.
+    #[inline]
+    pub(crate) fn touches(&self, chain: ChainIndex) -> bool {
+        self.place(chain).is_some()
+    }
+
+    /// Whether a vehicle enters a loop from one chain to another.
     pub(crate) fn is_entered(&self, way: [ChainIndex; 2]) -> bool {
         self.entered(way).is_some()
     }
 
     /// Clears all waiting priorities.
     pub(crate) fn clear_priorities(&mut self) {
-        self.roundabouts.iter_mut().for_each(|it| it.priority = None);
+        self.loops.iter_mut().for_each(|it| it.priority = None);
     }
 
     /// Records the priority of a vehicle that waits to go from one chain to another.
     pub(crate) fn note_priority(&mut self, way: [ChainIndex; 2], priority: WaitingPriority) {
         if let Some(number) = self.entered(way) {
-            let noted = &mut self.roundabouts[number as usize].priority;
+            let noted = &mut self.loops[number as usize].priority;
             *noted = Some(noted.map_or(priority, |it| it.min(priority)));
         }
     }
 
-    /// Whether a vehicle with `priority` must not enter the roundabout between the two chains of `way`: another vehicle
-    /// has a higher priority, or the roundabout would be full with the `needed` space [m].
+    /// Whether a vehicle with `priority` must not enter the loop between the two chains of `way`: another vehicle has a
+    /// higher priority, or the loop would be full with the `needed` space [m].
     pub(crate) fn is_closed(
         &self,
         reservations: &Reservations,
@@ -110,16 +192,16 @@ impl Roundabouts {
         needed: f64,
     ) -> bool {
         let Some(number) = self.entered(way) else { return false };
-        let roundabout = &self.roundabouts[number as usize];
-        if roundabout.priority.is_some_and(|first| first < priority) {
+        let entered = &self.loops[number as usize];
+        if entered.priority.is_some_and(|first| first < priority) {
             return true;
         }
-        let taken = roundabout.taken(reservations, lanes);
-        taken > 0.0 && taken + needed > MOST_TAKEN * roundabout.length
+        let taken = entered.taken(reservations, lanes);
+        taken > 0.0 && taken + needed > entered.most_taken * entered.length
     }
 }
 
-impl Roundabout {
+impl Loop {
     /// Length that the vehicles on it, and those with a reservation to enter it, occupy [m].
     fn taken(&self, reservations: &Reservations, lanes: &[Lane]) -> f64 {
         let space = |length: f32| f64::from(length) + SPARE_SPACE;
@@ -135,16 +217,24 @@ impl Roundabout {
     }
 }
 
-/// Whether a chain leads back to its start without a light, within the length of a roundabout.
+fn has_light(network: &Network, chain: ChainIndex) -> bool {
+    network.junctions.on(chain).stops.iter().any(|stop| matches!(stop.sign, Sign::Light(_)))
+}
+
+/// Whether another lane crosses a chain.
+fn is_crossed(network: &Network, chain: ChainIndex) -> bool {
+    let junctions = &network.junctions;
+    let mut zones = junctions.on(chain).crossings.iter().map(|it| &junctions.zones[it.zone.at()]);
+    zones.any(|it| it.kind == ZoneKind::Crossing)
+}
+
+/// Whether a chain leads back to its start without a light, over a short way.
 fn comes_round(network: &Network, start: ChainIndex) -> bool {
-    let has_light = |it: ChainIndex| {
-        network.junctions.on(it).stops.iter().any(|stop| matches!(stop.sign, Sign::Light(_)))
-    };
     let mut reached: Vec<(ChainIndex, f64)> = Vec::new();
     let mut open = vec![(start, 0.0)];
     while let Some((chain, before)) = open.pop() {
         let end = before + network.chain(chain).length;
-        if end > LONGEST || has_light(chain) {
+        if end > LONGEST || has_light(network, chain) {
             continue;
         }
         for next in &network.chain(chain).following {
@@ -181,11 +271,9 @@ mod tests {
     #[test]
     fn a_roundabout_is_one_ring_with_an_entry_at_each_arm() {
         let (network, roundabouts) = of_map("roundabout.osm");
-        let [roundabout] = &roundabouts.roundabouts[..] else {
-            panic!("{} roundabouts", roundabouts.roundabouts.len())
-        };
+        let [roundabout] = &roundabouts.loops[..] else { panic!("{} roundabouts", roundabouts.loops.len()) };
         assert_eq!(roundabout.entries.len(), network.entrances.len());
-        assert!((60.0..LONGEST).contains(&roundabout.length), "{} m", roundabout.length);
+        assert!((60.0..200.0).contains(&roundabout.length), "{} m", roundabout.length);
         let entry = roundabout.entries[0];
         assert!(network.chain(entry).following.iter().any(|it| roundabouts.is_entered([entry, *it])));
         assert!(!roundabouts.is_entered([roundabout.chains[0], roundabout.chains[1]]));
@@ -194,14 +282,14 @@ mod tests {
     #[test]
     fn neither_a_junction_nor_a_block_is_a_ring() {
         for name in ["priority.osm", "grid.osm", "motorway_3_lanes.osm"] {
-            assert!(of_map(name).1.roundabouts.is_empty(), "{name}");
+            assert!(of_map(name).1.loops.is_empty(), "{name}");
         }
     }
 
     #[test]
     fn of_those_who_wait_for_a_ring_the_longest_waiting_goes_first() {
         let (network, mut roundabouts) = of_map("roundabout.osm");
-        let entry = roundabouts.roundabouts[0].entries[0];
+        let entry = roundabouts.loops[0].entries[0];
         let onto =
             network.chain(entry).following.iter().find(|it| roundabouts.is_entered([entry, **it])).unwrap();
         let way = [entry, *onto];

@@ -1,15 +1,16 @@
 //! What a driver reacts to at a junction while it drives on.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{LightIndex, LightState, Sign, Zone, ZoneKind};
+use laneweave_network::{ChainIndex, LightIndex, LightState, Precedence, Sign, Zone, ZoneKind};
 
 use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::survey::{BEFORE_A_ZONE, Point, What, is_far, parts, stop_ahead, stops_before};
+use crate::state::lane::Kinematics;
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::state::standstill::STANDS;
 use crate::state::standstill::STANDSTILL;
-use crate::view::scene::{Scene, Spot};
+use crate::view::scene::{Scene, Spot, Viewpoint, nearer};
 
 /// Vehicles of at least this length take up both lanes of a tight bend [m] (ours).
 pub(crate) const LONG: f64 = 7.0;
@@ -22,6 +23,20 @@ const GENTLE: f64 = 1.5;
 const EARLY: f64 = 1.5;
 /// They ask at this distance at the latest [m].
 const NEAR: f64 = 10.0;
+/// At a roundabout they ask just before they would have to brake, with the braking with which they do [m/s²], and this
+/// much earlier [s] and [m] (ours). A driver with priority has a place in the order of a zone from then on. So it keeps
+/// others waiting no longer than it has to, and these judge the gap before it.
+const BRAKES: f64 = 2.0;
+const EARLY_AT_A_ROUNDABOUT: f64 = 0.5;
+const NEAR_AT_A_ROUNDABOUT: f64 = 2.0;
+/// Drivers who give way to a roundabout look for a gap from this distance before their line on [m], and come to it so
+/// that they can stop (ours: with it one follows another into it after 2.7 s, HCM 6: 2.6 s, from memory).
+const LOOKS_FROM: f64 = 4.0;
+/// A reservation ends this far before a zone from which on it is revoked [m], so that the driver has to ask for that
+/// zone again.
+const BEFORE_REVOKED: f64 = 0.2;
+/// A vehicle that is nearer to a zone may be in it before its reservation of it is revoked [m].
+const NEARLY_IN: f64 = 0.5;
 
 /// What a driver reacts to at a junction.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,16 +65,20 @@ pub(crate) struct FirstIntoMerge {
     pub(crate) stop: f64,
 }
 
-/// How far ahead a driver at `speed` [m/s] reacts to junctions [m].
+/// How far ahead a driver on `chain` at `speed` [m/s] reacts to junctions [m].
 #[inline]
-pub(crate) fn sight(speed: f64) -> f64 {
-    speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
+pub(crate) fn sight(scene: &Scene, chain: ChainIndex, speed: f64) -> f64 {
+    if scene.reservations.roundabouts.touches(chain) {
+        speed * speed / (2.0 * BRAKES) + EARLY_AT_A_ROUNDABOUT * speed + NEAR_AT_A_ROUNDABOUT
+    } else {
+        speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
+    }
 }
 
 /// Whether the driver at `spot` is far from all junctions and has no reservation. Then it has nothing to react to.
 #[inline]
 pub(crate) fn is_nothing_near(scene: &Scene, spot: Spot) -> bool {
-    let until = sight(scene.motion(spot).speed);
+    let until = sight(scene, spot.chain, scene.motion(spot).speed);
     is_far(scene, scene.viewpoint(spot), until) && scene.reservation(spot).is_none()
 }
 
@@ -69,7 +88,7 @@ pub(crate) fn look(scene: &Scene, spot: Spot) -> Junction {
     if is_nothing_near(scene, spot) {
         return Junction::default();
     }
-    look_closely(scene, spot, sight(scene.motion(spot).speed))
+    look_closely(scene, spot, sight(scene, spot.chain, scene.motion(spot).speed))
 }
 
 /// What the driver at `spot` reacts to within `until` [m].
@@ -79,10 +98,13 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let mut junction = Junction::default();
     let mut granted = 0.0;
     if let Some(reservation) = scene.reservation(spot) {
-        yield_to_earlier(scene, reservation, scene.lane_change(spot).reservation, &mut junction);
-        junction.revokes_from = to_revoke(scene, reservation, motion.speed).or_else(|| {
-            if motion.speed < STANDSTILL { cut_off_from(scene, spot, reservation) } else { None }
-        });
+        let slot = scene.lane_change(spot).reservation;
+        yield_to_earlier(scene, spot, reservation, slot, &mut junction);
+        junction.revokes_from = to_revoke(scene, reservation, motion.speed);
+        if junction.revokes_from.is_none() && motion.speed < STANDSTILL {
+            junction.revokes_from = cut_off_from(scene, spot, reservation)
+                .or_else(|| held_up_from(scene, spot, reservation, slot));
+        }
         // A revoked part is no longer used.
         let left = junction.revokes_from.map_or(reservation.left(), |from| from - reservation.travelled);
         granted = left.max(0.0);
@@ -91,14 +113,33 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         junction.stop = Some(junction.stop.map_or(stop, |it| it.min(stop)));
         // A driver who has to leave the lane before the place does not ask.
         let keeps_lane = scene.lane_change(spot).last_place >= motion.x + stop;
-        let is_settled = !driver.is_shadow && !driver.phase.is_between_lanes();
-        // A driver does not ask while vehicles ahead have to stop before the place.
-        let is_first = || !stops_before(scene, scene.viewpoint(spot), stop);
-        junction.asks = keeps_lane && is_settled && junction.revokes_from.is_none() && is_first();
+        let is_settled = !driver.phase.is_between_lanes();
+        let may_ask = !driver.is_shadow && is_settled && junction.revokes_from.is_none() && keeps_lane;
+        let is_entry = scene.reservations.roundabouts.is_entry(spot.chain);
+        let looks = stop < LOOKS_FROM || !is_entry || !gives_way(scene, &what);
+        junction.asks = may_ask && looks && is_first(scene, scene.viewpoint(spot), stop);
         junction.is_held =
             matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
     }
     junction
+}
+
+/// Whether a driver has to give way at a place.
+fn gives_way(scene: &Scene, what: &What) -> bool {
+    match what {
+        What::Sign(sign) => *sign == Sign::Line,
+        What::Zone(crossing, ..) => match scene.network.junctions.zones[crossing.zone.at()].precedence {
+            Precedence::Side(side) | Precedence::FromTheRight(side) => side != crossing.side,
+            Precedence::Arrival => false,
+        },
+    }
+}
+
+/// Whether no vehicle ahead has to stop before a place `stop` metres ahead, or stands there at a roundabout.
+fn is_first(scene: &Scene, from: Viewpoint, stop: f64) -> bool {
+    let is_round = || scene.reservations.roundabouts.touches(from.chain);
+    let stands_before = || scene.ahead(from).is_some_and(|it| it.gap < stop && it.speed < STANDSTILL);
+    !(stops_before(scene, from, stop) || is_round() && stands_before())
 }
 
 /// Whether a driver at `speed` [m/s] passes a light whose stopping place is `at` metres ahead.
@@ -127,14 +168,23 @@ pub(crate) fn earlier<'a>(
 }
 
 /// Makes the driver yield to vehicles that go before it through a zone.
-fn yield_to_earlier(scene: &Scene, reservation: &Reservation, slot: u32, junction: &mut Junction) {
+fn yield_to_earlier(
+    scene: &Scene,
+    spot: Spot,
+    reservation: &Reservation,
+    slot: u32,
+    junction: &mut Junction,
+) {
+    let is_round = scene.reservations.roundabouts.touches(spot.chain);
     for hold in &reservation.holds {
         let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
         let mut others = earlier(scene, reservation, slot, hold);
         match kind {
-            ZoneKind::Merging(_) => {
-                let first =
-                    others.last().and_then(|it| leader_into(hold.leave - reservation.travelled, hold, it));
+            ZoneKind::Merging(stations) => {
+                let to_merge = hold.leave - reservation.travelled;
+                let first = others.last().and_then(|it| leader_into(to_merge, hold, it));
+                let beside = || beside(scene, hold, stations, to_merge);
+                let first = if is_round { nearer(first, beside()) } else { first };
                 if let Some(ahead) = first
                     && junction.leader.is_none_or(|it| ahead.gap < it.ahead.gap)
                 {
@@ -151,6 +201,23 @@ fn yield_to_earlier(scene: &Scene, reservation: &Reservation, slot: u32, junctio
             }
         }
     }
+}
+
+/// Of the vehicles in the zone on the other side of a merge into a roundabout, the one before a driver in the zone who is
+/// `to_merge` before it [m], as a leader. Drivers keep the order of a zone, so none is there, but users need not.
+fn beside(scene: &Scene, hold: &ZoneReservation, stations: [f64; 2], to_merge: f64) -> Option<Ahead> {
+    if to_merge > hold.leave - hold.enter {
+        return None;
+    }
+    let other_side = usize::from(1 - hold.side);
+    let reach = &scene.network.junctions.zones[hold.zone.at()].sides[other_side];
+    let ahead = |it: &Kinematics| {
+        let theirs = stations[other_side] - it.x;
+        let is_nearer = (reach.start..reach.end).contains(&it.x) && theirs < to_merge;
+        is_nearer.then(|| it.ahead(to_merge - theirs - f64::from(it.length)))
+    };
+    let all = scene.motions(reach.chain).iter().filter_map(ahead);
+    all.reduce(|a, b| if b.gap < a.gap { b } else { a })
 }
 
 /// The vehicle `other`, which goes first into the merge `to_merge` ahead [m], as a leader. Its gap follows from its
@@ -173,6 +240,25 @@ fn cut_off_from(scene: &Scene, spot: Spot, reservation: &Reservation) -> Option<
     let zones = reservation.holds.iter().map(|it| it.enter - reservation.travelled);
     let next = zones.filter(|it| *it > gap.max(0.0)).fold(f64::INFINITY, f64::min);
     (next < f64::INFINITY && gap < until).then_some(reservation.travelled + gap.max(0.0))
+}
+
+/// Where the first zone begins that the driver at `spot`, who stands at a roundabout, has not entered yet, measured
+/// from the start of its reservation [m], if it cannot use one of them now: a vehicle that goes before it there stands,
+/// too, or its leader stands before that zone. These may wait for what the driver holds beyond. It returns all of these
+/// zones. If it kept some, others would go after it there and before it elsewhere, and each would wait for the other.
+/// For that reason drivers keep their places at other junctions, where zones do not lie one after the other.
+fn held_up_from(scene: &Scene, spot: Spot, reservation: &Reservation, slot: u32) -> Option<f64> {
+    if !scene.reservations.roundabouts.touches(spot.chain) {
+        return None;
+    }
+    let standing = scene.ahead(scene.viewpoint(spot)).filter(|it| it.speed < STANDSTILL);
+    let free = reservation.travelled + standing.map_or(f64::INFINITY, |it| it.gap);
+    let is_held_up = |it: &ZoneReservation| {
+        it.enter > free || earlier(scene, reservation, slot, it).any(|other| other.speed < STANDSTILL)
+    };
+    let mut ahead = reservation.holds.iter().filter(|it| it.enter > reservation.travelled + NEARLY_IN);
+    let first = ahead.clone().map(|it| it.enter - BEFORE_REVOKED).reduce(f64::min);
+    first.filter(|_| ahead.any(is_held_up))
 }
 
 /// Where a driver stops for the first light that is no longer green, measured from the start of its reservation [m].

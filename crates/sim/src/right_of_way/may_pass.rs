@@ -3,7 +3,7 @@
 use laneweave_models::braking::is_secure;
 use laneweave_models::follow::Ahead;
 use laneweave_models::yielding::MARGIN;
-use laneweave_network::{Precedence, ZoneKind};
+use laneweave_network::{ChainIndex, Precedence, Reach, ZoneKind};
 
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
@@ -27,8 +27,8 @@ pub(crate) enum PassHindrance {
     Space,
     /// It would fill a roundabout.
     Roundabout,
-    /// A vehicle that lacks storage space may have to stand within its zones. Nobody knows for how long, so it has no
-    /// turn there.
+    /// A vehicle that lacks storage space may have to stand within its zones, or one stands within those of a
+    /// roundabout. Nobody knows for how long, so it has no turn there.
     Blocked,
     /// Others go first; it waits for its turn.
     Others,
@@ -45,6 +45,9 @@ const ROOM_FOR_ANOTHER: f64 = 7.0;
 /// A driver who has to yield to the right goes by waiting time after it has waited this long [s] (ours). This ends a
 /// deadlock in which every driver yields to another.
 const STANDOFF: f64 = 4.0;
+
+/// Drivers with priority let others merge that are in their way for at most this long [s] (ours).
+const LET_IN: f64 = 1.5;
 
 /// The waiting priority and the waiting time of a driver who asks to pass.
 #[derive(Clone, Copy, Debug)]
@@ -100,10 +103,10 @@ pub(crate) fn may_pass(
     let lacks = |spare: f64| space < (needed + spare).min(survey.most);
     let yields_room =
         || leaves_room && lacks(ROOM_FOR_ANOTHER) && survey.holds.iter().any(|it| gives_way(scene, it));
-    if lacks(0.0) || yields_room() {
+    if needs_space(scene, survey, way) && (lacks(0.0) || yields_room()) {
         return Err(PassHindrance::Space);
     }
-    if survey.holds.iter().any(|hold| is_blocked(scene, hold, asking)) {
+    if survey.holds.iter().any(|hold| is_blocked(scene, applicant, hold, asking)) {
         return Err(PassHindrance::Blocked);
     }
     if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking)) {
@@ -111,6 +114,15 @@ pub(crate) fn may_pass(
     } else {
         Err(PassHindrance::Others)
     }
+}
+
+/// Whether a vehicle needs storage space beyond the zones to pass them on its `way`. Around a roundabout, and where it
+/// only merges into one, it needs none: that is never full.
+fn needs_space(scene: &Scene, survey: &Survey, way: [ChainIndex; 2]) -> bool {
+    let Scene { network, reservations, .. } = *scene;
+    let kind = |it: &ZoneReservation| network.junctions.zones[it.zone.at()].kind;
+    let only_merges = || survey.holds.iter().all(|it| matches!(kind(it), ZoneKind::Merging(_)));
+    !(reservations.roundabouts.is_on(way[0]) || reservations.roundabouts.is_entered(way) && only_merges())
 }
 
 /// Whether a vehicle with priority comes, waits or passes on the other side of a zone.
@@ -122,13 +134,16 @@ fn gives_way(scene: &Scene, hold: &ZoneReservation) -> bool {
     zone.precedence == Precedence::Side(side) && (waits() || passes() || comes())
 }
 
-/// Whether a vehicle that lacks storage space may have to stand within a crossing, in the way of the other side.
-fn is_blocked(scene: &Scene, hold: &ZoneReservation, asking: Asking) -> bool {
+/// Whether a vehicle that lacks storage space may have to stand within a crossing, in the way of the other side, or
+/// stands within one of a roundabout.
+fn is_blocked(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let touch = |other: &Reservation| zone.touch.is_of([asking.priority.is_long, other.length >= LONG]);
+    let is_round = scene.reservations.roundabouts.touches(applicant.from.chain);
+    let stays = |other: &Reservation| other.lacks_space || is_round && other.stands_in(hold);
     let mut others = scene.reservations.order(hold.zone);
     zone.kind == ZoneKind::Crossing
-        && others.any(|(it, other)| it.side != hold.side && other.lacks_space && touch(other))
+        && others.any(|(it, other)| it.side != hold.side && stays(other) && touch(other))
 }
 
 fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
@@ -185,18 +200,29 @@ pub(crate) fn leader_of(scene: &Scene, survey: &Survey) -> Option<Ahead> {
     merges.filter_map(last).reduce(|a, b| if b.gap < a.gap { b } else { a })
 }
 
-/// Whether the lag to vehicles with priority on the other side is long enough.
+/// Whether the lag to vehicles with priority on the other side is long enough. Where lanes merge into a roundabout, it
+/// is the time until such a vehicle is where they become one, and drivers with priority brake a little for others
+/// (limited priority, Troutbeck and Kako 1999).
 fn accepts_lag(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let other_side = 1 - hold.side;
+    let reach = zone.sides[usize::from(other_side)];
+    let yielding = &applicant.style.yielding;
     let needed = || applicant.time_to(hold.leave);
-    let lag = || lag(scene, hold.zone, &zone.sides[usize::from(other_side)]);
+    let lag = |start: f64| lag(scene, hold.zone, &Reach { start, ..reach });
     match zone.precedence {
         Precedence::Side(side) if side == other_side && asking.priority.is_patient => {
-            applicant.style.yielding.accepts(lag(), needed(), asking.waited)
+            if !scene.reservations.roundabouts.is_entry(applicant.from.chain) {
+                return yielding.accepts(lag(reach.start), needed(), asking.waited);
+            }
+            let start = match zone.kind {
+                ZoneKind::Merging(stations) => stations[usize::from(other_side)],
+                ZoneKind::Crossing => reach.start,
+            };
+            yielding.accepts_at_roundabout(lag(start), needed() - LET_IN, asking.waited)
         }
         Precedence::FromTheRight(side) if side == other_side && asking.waited < STANDOFF => {
-            lag() >= needed() + MARGIN
+            lag(reach.start) >= needed() + MARGIN
         }
         _ => true,
     }

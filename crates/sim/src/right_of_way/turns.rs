@@ -12,13 +12,14 @@ use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::LONG;
+use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 
 /// An earlier vehicle on the other side may occupy a crossing until this long after the applicant could reach it [s]
 /// (ours): the applicant approaches while the crossing clears.
 const APPROACHES: f64 = 1.5;
 /// A driver with an earlier turn lets another go that leaves the zone at most this long after the driver could enter
-/// it [s] (ours).
+/// it [s] (ours). None on the way into a roundabout.
 const COURTESY: f64 = 1.0;
 
 /// The turns that the applicant requests in all zones that it `holds` with its reservation.
@@ -44,7 +45,8 @@ pub(crate) fn is_out_before(
     turn: &WaitingTurn,
 ) -> bool {
     let out = applicant.time_to(departure(scene, hold, applicant.length));
-    turn.priority.is_patient && out <= turn.begins + COURTESY
+    let courtesy = if scene.reservations.roundabouts.is_entry(applicant.from.chain) { 0.0 } else { COURTESY };
+    turn.priority.is_patient && out <= turn.begins + courtesy
 }
 
 /// Whether `other` will have left the crossing when the applicant arrives.
@@ -54,7 +56,7 @@ pub(crate) fn clears(
     hold: &ZoneReservation,
     other: &Reservation,
 ) -> bool {
-    clearance(scene, hold, other) <= arrival(scene, applicant, hold)
+    clearance(scene, applicant, hold, other) <= arrival(scene, applicant, hold)
 }
 
 /// Delay of the applicant's arrival at a zone by vehicles with reservations [s].
@@ -62,7 +64,8 @@ fn held_up(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, priorit
     let touch = scene.network.junctions.zones[hold.zone.at()].touch;
     let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
     let matters = |other: &Reservation| touch.is_of([priority.is_long, other.length >= LONG]);
-    let clearances = others.filter(|(_, it)| matters(it)).map(|(_, it)| clearance(scene, hold, it));
+    let clearances =
+        others.filter(|(_, it)| matters(it)).map(|(_, it)| clearance(scene, applicant, hold, it));
     clearances.fold(0.0, f64::max) - arrival(scene, applicant, hold)
 }
 
@@ -75,9 +78,14 @@ fn arrival(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation) -> f64 
     }
 }
 
-/// Time until `other` no longer blocks a vehicle on the other side of a zone [s].
-fn clearance(scene: &Scene, hold: &ZoneReservation, other: &Reservation) -> f64 {
+/// Time until `other` no longer blocks the applicant on the other side of a zone [s]. At a roundabout, where
+/// reservations are returned in part, it is infinite if its reservation does not lead it out of the zone.
+fn clearance(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, other: &Reservation) -> f64 {
+    let is_round = scene.reservations.roundabouts.touches(applicant.from.chain);
     other.across(hold).map_or(0.0, |it| {
+        if is_round && other.extent < it.leave - ROUNDING {
+            return f64::INFINITY;
+        }
         let distance = departure(scene, it, other.length) - other.travelled;
         time_to_cover(distance, other.speed, other.desired)
     })

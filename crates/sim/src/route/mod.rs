@@ -19,6 +19,7 @@ pub(crate) mod navigate;
 pub(crate) mod onward;
 pub(crate) mod place;
 pub(crate) mod renew_routes;
+pub(crate) mod ring_lanes;
 pub(crate) mod roads;
 pub(crate) mod walk;
 pub(crate) mod waypoint;

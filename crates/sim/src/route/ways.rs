@@ -10,6 +10,7 @@ use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::disutility::Disutility;
 use crate::route::links::Links;
 use crate::route::place::Place;
+use crate::route::ring_lanes::crossing_time;
 use crate::route::waypoint::Waypoint;
 
 /// Stretches from which a change leads into a chain: chain, side and number.
@@ -31,7 +32,6 @@ impl Planner<'_> {
     const ROOM_FOR_A_CHANGE: f64 = 40.0;
     /// Cost of an avoided chain besides its time in the choice of a route [s], ours: no detour in a town is as long.
     const AVOIDED: f64 = 600.0;
-
     /// Cost of a missed change, ours: once around the block [s].
     const MISSED: f64 = 120.0;
 
@@ -73,7 +73,8 @@ impl Planner<'_> {
 
     /// Cost of `chain` besides its time [s].
     fn delay(&self, chain: ChainIndex) -> f64 {
-        if self.restrictions.avoids(self.restriction, chain) { Planner::AVOIDED } else { 0.0 }
+        let is_avoided = self.restrictions.avoids(self.restriction, chain);
+        f64::from(is_avoided) * Planner::AVOIDED + crossing_time(self.network, chain)
     }
 
     /// The waypoint of `chain` for a driver who goes on to `next`, whose waypoint is `onward`.
@@ -124,7 +125,7 @@ impl Planner<'_> {
             via: index,
             last_place: f64::INFINITY,
             next: None,
-            time: self.time(index, until),
+            time: self.time(index, until) + crossing_time(self.network, index),
             distance: until,
             end,
             disutility: Disutility::until(self.network, index, until),
@@ -176,10 +177,11 @@ impl Planner<'_> {
             let Waypoint { changes, via, last_place, .. } = table[chain.at()];
             let onward = table[via.at()];
             table[chain.at()].time = if via == chain {
-                match place {
-                    Place::Gate(_) => self.time(chain, self.network.chain(chain).length),
-                    Place::Inside(inner) => self.time(chain, inner.station),
-                }
+                let until = match place {
+                    Place::Gate(_) => self.network.chain(chain).length,
+                    Place::Inside(inner) => inner.station,
+                };
+                self.time(chain, until) + crossing_time(self.network, chain)
             } else if changes == onward.changes {
                 let it = self.network.chain(chain);
                 self.time(chain, it.length) + onward.time + self.delay(chain)

@@ -27,6 +27,12 @@ impl PreviousLanes {
         chain(self.0[0])
     }
 
+    /// Whether a vehicle on `chain` came from the chain `back`, as far as is known.
+    #[inline]
+    pub(crate) fn came_from(self, network: &Network, chain: ChainIndex, back: ChainIndex) -> bool {
+        self.back(network, chain).next() == Some(back)
+    }
+
     /// The known chains that it came over, the latest first.
     pub fn known(self) -> impl Iterator<Item = ChainIndex> {
         self.0.into_iter().map_while(chain)

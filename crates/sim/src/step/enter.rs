@@ -110,7 +110,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
             let outlook = Outlook { network, navigator, style, class, destination };
             let desired = outlook.fitting_speed(Position::new(chain, x), 0.0);
             let speed = entry_speed(style, desired, ahead, dt)?;
-            let stop = stop_ahead(scene, from, granted, sight(desired));
+            let stop = stop_ahead(scene, from, granted, sight(scene, from.chain, desired));
             stop.map_or(speed, |it| speed.min(speed_before_a_stop(it.stop - length)))
         }
         Start::FromRest(_) => {

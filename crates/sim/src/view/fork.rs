@@ -52,7 +52,9 @@ impl<'a> Scene<'a> {
             let lane = &self.lanes[on.at()];
             let mut all = lane.motions().iter().zip(lane.lane_change_states()).enumerate();
             let is_ahead = |it: &Kinematics| it.id != id && (base + it.x, id) > (x, it.id);
-            let came = |lane_change: &LaneChangeState| lane_change.previous_lanes.last() == Some(came_from);
+            let came = |lane_change: &LaneChangeState| {
+                lane_change.previous_lanes.came_from(self.network, on, came_from)
+            };
             let (index, (it, _)) = all.find(|(_, (it, lane_change))| came(lane_change) && is_ahead(it))?;
             let rear = base + it.rear();
             (rear < chain.fork_clearance).then_some((Spot { chain: on, index }, rear))
@@ -107,8 +109,9 @@ impl<'a> Scene<'a> {
         let lane = &self.lanes[sibling.at()];
         let mut came = lane.motions().iter().zip(lane.lane_change_states());
         let is_ahead = |it: &Kinematics| it.id != id && (it.x, id) > (x, it.id);
-        let (other, lane_change) =
-            came.find(|(it, lane_change)| is_ahead(it) && lane_change.previous_lanes.last() == Some(back))?;
+        let (other, lane_change) = came.find(|(it, lane_change)| {
+            is_ahead(it) && lane_change.previous_lanes.came_from(self.network, sibling, back)
+        })?;
         let goes_on =
             self.reservations.of(lane_change.reservation, other.id).map_or(0.0, |it| it.left().max(0.0));
         let stays = other.rear() + goes_on < self.network.chain(sibling).fork_clearance;

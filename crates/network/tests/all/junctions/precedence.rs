@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use laneweave_network::{
-    DrivingSide, LaneletIndex, Precedence, Priority, Regulations, StopKind, StopRule, ZoneKind,
+    DrivingSide, LaneletIndex, Point, Precedence, Priority, Regulations, StopKind, StopRule, ZoneKind,
 };
 
 use crate::junctions::drawn::{Lanes, arc, crossing, joined, straight};
@@ -118,6 +118,22 @@ fn who_drives_in_a_ring_goes_before_who_comes_into_it() {
     };
     let Precedence::Side(side) = zone.precedence else { panic!("{:?}", zone.precedence) };
     assert!(is_ring(side) && !is_ring(1 - side));
+}
+
+#[test]
+fn a_large_circle_is_a_ring_and_a_block_of_that_length_is_none() {
+    let closed = |piece: &dyn Fn(f64) -> Vec<Point>| {
+        let lanes = Lanes::default().with(piece(0.0), &[1]).with(piece(1.0), &[2]);
+        let lanes = lanes.with(piece(2.0), &[3]).with(piece(3.0), &[0]);
+        let lanes = lanes.with(straight((-200.0, 0.0), (-60.0, 0.0)), &[3]);
+        let network = lanes.network(DrivingSide::Right).regulated(&Regulations::default());
+        let chain = network.start_of(LaneletIndex(1)).chain;
+        network.junctions.is_in_roundabout(chain)
+    };
+    let quarter = |number: f64| arc((0.0, 0.0), 60.0, (number - 1.0) * FRAC_PI_2, FRAC_PI_2);
+    let corners = [(-60.0, -60.0), (60.0, -60.0), (60.0, 60.0), (-60.0, 60.0), (-60.0, -60.0)];
+    let side = |number: f64| straight(corners[number as usize], corners[number as usize + 1]);
+    assert!(closed(&quarter) && !closed(&side));
 }
 
 #[test]

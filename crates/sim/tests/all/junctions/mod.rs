@@ -7,5 +7,6 @@ mod giving_way;
 mod guided;
 mod lights;
 mod room;
+mod roundabouts;
 mod same_bits;
 mod town;

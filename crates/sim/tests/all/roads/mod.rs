@@ -121,7 +121,7 @@ pub(crate) fn real(file: &str) -> Option<(Network, Graph)> {
     Some(regulated(load(&path, &ReadOptions::default()).expect("the map is sound")))
 }
 
-fn regulated(map: Map) -> (Network, Graph) {
+pub(crate) fn regulated(map: Map) -> (Network, Graph) {
     let regulations = regulations(&map);
     (map.network.regulated(&regulations), map.graph)
 }
