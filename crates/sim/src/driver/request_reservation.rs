@@ -93,8 +93,8 @@ fn starves(scene: &Scene, asking: Asking, survey: &Survey) -> bool {
     waited > STARVES && survey.lights.last().is_some_and(|it| was_green(it.0))
 }
 
-/// Requests space for the driver at `spot`, who has surveyed its route, and has met a `hindrance`. A driver who enters a
-/// roundabout gets a waiting priority there instead, if that is full, and does not stop its traffic.
+/// Requests space for the driver at `spot`, who has surveyed its route, and has met a `hindrance`. A driver who enters
+/// a roundabout gets a waiting priority there instead, if that is full, and does not stop its traffic.
 fn request_space(
     scene: &Scene,
     spot: Spot,

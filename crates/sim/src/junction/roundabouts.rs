@@ -15,8 +15,8 @@ use crate::state::lane::Lane;
 /// A loop that is no roundabout is no longer than this [m] (ours).
 const LONGEST: f64 = 200.0;
 /// Share of the length of its lane that vehicles and the gaps between them may occupy (ours: on a small roundabout
-/// space for two vehicles remains, so that a truck can move up, too). It is less where lanes cross: a vehicle that waits
-/// for another lane holds up its own.
+/// space for two vehicles remains, so that a truck can move up, too). It is less where lanes cross: a vehicle that
+/// waits for another lane holds up its own.
 const MOST_TAKEN: f64 = 0.6;
 const MOST_TAKEN_CROSSED: f64 = 0.4;
 
@@ -76,8 +76,8 @@ impl PartOf {
 }
 
 impl Roundabouts {
-    /// The loops of `network` without lights: chains that lead back to their starts, each with those of its kind that are
-    /// linked to it. So each lane of a roundabout is one of its own.
+    /// The loops of `network` without lights: chains that lead back to their starts, each with those of its kind that
+    /// are linked to it. So each lane of a roundabout is one of its own.
     pub(crate) fn of(network: &Network) -> Roundabouts {
         let chains = (0..network.chains.len() as u32).map(ChainIndex);
         let parts: Vec<PartOf> = chains.clone().map(|it| PartOf::what(network, it)).collect();

@@ -203,8 +203,9 @@ fn yield_to_earlier(
     }
 }
 
-/// Of the vehicles in the zone on the other side of a merge into a roundabout, the one before a driver in the zone who is
-/// `to_merge` before it [m], as a leader. Drivers keep the order of a zone, so none is there, but users need not.
+/// Of the vehicles in the zone on the other side of a merge into a roundabout, the one before a driver in the zone, as
+/// a leader. The driver is `to_merge` before the merge [m]. Drivers keep the order of a zone, so none is there, but
+/// users need not.
 fn beside(scene: &Scene, hold: &ZoneReservation, stations: [f64; 2], to_merge: f64) -> Option<Ahead> {
     if to_merge > hold.leave - hold.enter {
         return None;
