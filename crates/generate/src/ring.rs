@@ -128,7 +128,7 @@ pub(super) fn ring(canvas: &mut Canvas, ring: Ring, arms: &[RingArm]) {
             right: points[it][lane + 1],
         };
         let tangent = |it: usize| angles[it] + FRAC_PI_2;
-        let outer = |lanes: &[LaneEnd]| ring.lanes - lanes.len()..ring.lanes;
+        let outer = |lanes: &[LaneEnd]| ring.lanes.saturating_sub(lanes.len())..ring.lanes;
         for (lane, from) in arm.leaving.iter().zip(outer(&arm.leaving)) {
             let headings = [tangent(leaving), arm.heading];
             borders.connector(canvas, [on_piece(leaving, from), *lane], headings, SPEED_LIMIT);

@@ -2,7 +2,8 @@
 //!
 //! Gap acceptance as in Harders (1968) and Siegloch (1973): a driver goes if the next vehicle on the other path
 //! arrives no sooner than its critical gap t_c. A driver who has waited accepts less, down to a floor. After its
-//! patience it takes its turn (both ours). It never goes before it can be out of the way.
+//! patience it takes its turn (both ours). It never goes before it can be out of the way; into a
+//! roundabout, others may have to brake a little for it.
 
 use serde::{Deserialize, Serialize};
 

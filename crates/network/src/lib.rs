@@ -20,6 +20,7 @@ mod polygon;
 mod rectangle;
 mod regulate;
 mod section;
+mod signals;
 mod symmetry;
 mod width;
 
@@ -41,4 +42,5 @@ pub use network::Network;
 pub use polygon::Polygon;
 pub use rectangle::Rectangle;
 pub use section::{Branch, Section, Sections};
+pub use signals::{LaneFlows, LightTraffic};
 pub use symmetry::{Symmetry, symmetry};

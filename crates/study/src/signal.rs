@@ -46,6 +46,29 @@ impl Signal {
     }
 }
 
+impl Signal {
+    /// x: arrivals as a share of the vehicles that can leave.
+    pub fn saturation(&self) -> f64 {
+        self.arrivals_veh_h * self.cycle_s / (self.saturation_veh_h * self.green_s)
+    }
+
+    /// Mean delay of vehicles that arrive at random, as a Poisson process [s] (Webster, 1958, from memory): with λ = g/C,
+    /// C (1 − λ)²/(2 (1 − λ x)) + x²/(2 q (1 − x)) − 0.65 (C/q²)^⅓ x^(2 + 5 λ). `None` if as many or more arrive than can
+    /// leave, or nobody.
+    pub fn random_delay_s(&self) -> Option<f64> {
+        let (x, share) = (self.saturation(), self.green_s / self.cycle_s);
+        let arrivals = self.arrivals_veh_h / SECONDS_PER_HOUR;
+        if !(x > 0.0 && x < 1.0) {
+            return None;
+        }
+        let uniform = self.cycle_s * (1.0 - share).powi(2) / (2.0 * (1.0 - share * x));
+        let random = x * x / (2.0 * arrivals * (1.0 - x));
+        let correction =
+            0.65 * libm::cbrt(self.cycle_s / (arrivals * arrivals)) * libm::pow(x, 2.0 + 5.0 * share);
+        Some(uniform + random - correction)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,6 +105,16 @@ mod tests {
             assert!((area / (arrivals_veh_h / 60.0) - expected.mean_delay_s).abs() < 0.01);
             assert!((longest - expected.longest_veh).abs() < 0.01);
         }
+    }
+
+    #[test]
+    fn webster_s_delay_of_random_arrivals_at_two_thirds_of_saturation() {
+        // 7.5/(1 − 1/3) + (4/9)/(2/6 · 1/3) − 0.65 · 2160^⅓ · (2/3)^4.5.
+        assert_near(HALF.saturation(), 2.0 / 3.0);
+        let delay = HALF.random_delay_s().unwrap();
+        assert!((delay - (11.25 + 4.0 - 0.65 * 12.926_608 * 0.161_281)).abs() < 1e-4, "{delay}");
+        assert_eq!(Signal { arrivals_veh_h: 900.0, ..HALF }.random_delay_s(), None);
+        assert_eq!(Signal { arrivals_veh_h: 0.0, ..HALF }.random_delay_s(), None);
     }
 
     #[test]

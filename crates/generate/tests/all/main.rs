@@ -6,5 +6,6 @@ mod motorways;
 mod own_maps;
 mod random_maps;
 mod roundabouts;
+mod signals;
 mod towns;
 mod work;

@@ -139,6 +139,18 @@ impl Program {
         }
     }
 
+    /// Whether it is green at some time at which `other` is green, too; programs with other cycles shift against it.
+    pub(crate) fn is_green_with(&self, other: &Program) -> bool {
+        if self.phases.is_empty() || other.phases.is_empty() || self.cycle != other.cycle {
+            return true;
+        }
+        let meet = |a: &Phase, b: &Phase| {
+            let later = self.within_cycle(b.from - a.from);
+            later < a.to - a.from || self.cycle - later < b.to - b.from
+        };
+        self.phases.iter().any(|a| other.phases.iter().any(|b| meet(a, b)))
+    }
+
     /// Share of the time that it is green.
     pub fn green_share(&self) -> f64 {
         if self.phases.is_empty() {

@@ -2,12 +2,11 @@
 //! lane changes and entrances.
 //!
 //! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zones.rs`), who has
-//! priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), where they
-//! turn (`turning.rs`), and the signal programs (`lights.rs`). Who holds which zone is the simulator's.
+//! priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), and where
+//! they turn (`turning.rs`). The programs of lights are in `signals`. Who holds which zone is the simulator's.
 
 mod contact;
 mod kinship;
-mod lights;
 mod nearby;
 mod places;
 mod precedence;
@@ -16,11 +15,10 @@ mod turning;
 mod zones;
 
 use crate::chain::{Beside, ChainIndex};
-use crate::junction::{
-    Crossing, Junctions, LightConflict, OnChain, Reach, Regulations, SignalPlan, ZoneIndex,
-};
+use crate::junction::{Crossing, Junctions, OnChain, Reach, Regulations, ZoneIndex};
 use crate::lanelet::Side;
 use crate::network::Network;
+use crate::signals;
 use kinship::Kinship;
 use ring::Ring;
 
@@ -63,22 +61,6 @@ impl Network {
                 }
             }
         }
-        self
-    }
-
-    /// Which traffic lights conflict with each other.
-    pub fn light_conflicts(&self) -> Vec<LightConflict> {
-        lights::conflicts(self, &self.junctions).found
-    }
-
-    /// For each zone and each of its sides whether its drivers pass a light.
-    pub fn lit_sides(&self) -> Vec<[bool; 2]> {
-        lights::lit_sides(self, &self.junctions)
-    }
-
-    /// The same network with lights that follow these plans.
-    pub fn with_signals(mut self, plans: &[SignalPlan]) -> Network {
-        self.junctions.follow(plans);
         self
     }
 
@@ -140,7 +122,7 @@ fn junctions(network: &Network, regulations: &Regulations) -> Junctions {
     junctions.turns = turning::turns(network, &in_ring);
     junctions.in_roundabout = rings.iter().map(|it| *it == Ring::Round).collect();
     junctions.nearby = nearby::nearby(network, &contacts.of_pairs);
-    let (made, comparisons) = lights::made_plans(network, &junctions);
+    let (made, comparisons) = signals::made_plans(network, &junctions);
     junctions.comparisons += comparisons;
     junctions.follow(&made);
     junctions.made = made;

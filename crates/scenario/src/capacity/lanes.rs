@@ -29,11 +29,15 @@ pub(super) fn loads(roads: &Roads) -> Vec<Load> {
 impl Roads<'_> {
     /// The load of the lanes at a station of a chain [m].
     fn load(&self, chain: ChainIndex, station: f64) -> Load {
-        let [bound, all] = self.assignment.flow(chain, station);
         let (capacity, light) = self.capacity(chain, station);
+        let counted = |at: Position| {
+            let equivalents = if light.is_some() { self.equivalents.at(at.chain, at.x) } else { 1.0 };
+            self.assignment.flow(at.chain, at.x).map(|it| it * equivalents)
+        };
+        let [bound, all] = counted(Position::new(chain, station));
         let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
         for Position { chain: beside, x: at } in self.beside(chain, station, light.is_some()) {
-            let [_, flow] = self.assignment.flow(beside, at);
+            let [_, flow] = counted(Position::new(beside, at));
             // A lane that ends soon, or leads elsewhere, has no flow.
             if flow > 0.0 {
                 flows += flow;

@@ -8,6 +8,7 @@
 mod conflict;
 mod delay;
 mod lanes;
+mod lights;
 mod movement;
 mod queues;
 mod side_by_side;
@@ -23,7 +24,10 @@ use laneweave_network::{ChainIndex, Network, Position};
 use laneweave_sim::{Assignment, Demand, InnerPlace, Place};
 use laneweave_study::units::SECONDS_PER_HOUR;
 
+pub(crate) use lights::with_traffic;
 pub(crate) use queues::Queues;
+
+use lights::Equivalents;
 
 /// The estimated capacity of a map: the demand at which its first part is full.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +93,7 @@ struct Roads<'a> {
     network: &'a Network,
     assignment: &'a Assignment,
     queues: &'a Queues,
+    equivalents: &'a Equivalents,
 }
 
 impl Roads<'_> {
@@ -107,9 +112,9 @@ impl Capacity {
     /// mixture of `drivers`, each with its weight.
     ///
     /// The capacity of a lane is the flow from a long queue. That of lanes side by side comes from a simulation of
-    /// such a road. That of a light is the part of a standing queue that passes at green. Where paths meet without a
-    /// light, drivers take turns and gaps. A town has the capacity of its perimeter control. Effects that are not
-    /// considered can only lower the capacity: missing gaps for lane changes, turns across oncoming traffic at green,
+    /// such a road. That of a light is the part of a standing queue that passes at green; turns across oncoming traffic
+    /// take gaps in it. Where paths meet without a light, drivers take turns and gaps. A town has the capacity of its
+    /// perimeter control. Effects that are not considered can only lower the capacity: missing gaps for lane changes,
     /// queues that block each other.
     pub fn new(
         network: &Network,
@@ -128,7 +133,8 @@ impl Capacity {
         inner_places: &[InnerPlace],
         queues: &Queues,
     ) -> Capacity {
-        let roads = Roads { network, assignment, queues };
+        let equivalents = lights::equivalents(network, assignment, queues);
+        let roads = Roads { network, assignment, queues, equivalents: &equivalents };
         let movements = movement::movements(&roads);
         let parts = lanes::loads(&roads)
             .into_iter()

@@ -35,7 +35,7 @@ impl Queues {
     }
 
     /// The capacity of a single lane without a light, if it is alone [veh/s].
-    pub(super) fn stream(&self, limit: f64, curvature: f64) -> f64 {
+    pub(crate) fn stream(&self, limit: f64, curvature: f64) -> f64 {
         self.streams.get([limit, curvature], || self.mixture(limit, curvature).stream())
     }
 
@@ -44,11 +44,19 @@ impl Queues {
         if program.phases.is_empty() {
             return self.stream(limit, 0.0);
         }
-        let pass = |it: &Phase| {
-            let green = it.to - it.from;
-            self.greens.get([green, limit], || self.mixture(limit, 0.0).pass_at_green(green))
-        };
+        let pass = |it: &Phase| self.pass_at_green(it.to - it.from, limit);
         program.phases.iter().map(pass).sum::<f64>() / program.cycle
+    }
+
+    /// Vehicles of a queue that pass in a green [s], interpolated between greens that are computed.
+    fn pass_at_green(&self, green: f64, limit: f64) -> f64 {
+        /// Between greens that are computed [s].
+        const BETWEEN: f64 = 5.0;
+        let before = (green / BETWEEN).floor() * BETWEEN;
+        let pass =
+            |green: f64| self.greens.get([green, limit], || self.mixture(limit, 0.0).pass_at_green(green));
+        let [less, more] = [before, before + BETWEEN].map(pass);
+        less + (more - less) * (green - before) / BETWEEN
     }
 
     /// The share of the capacity of so many `lanes` side by side under `limit` [m/s] that lane changes leave.
@@ -86,6 +94,7 @@ impl Known {
 mod tests {
     use laneweave_generate::{Grid, grid};
 
+    use super::super::lights::Equivalents;
     use super::super::{Roads, lanes};
     use super::*;
     use crate::scenario::{Origin, Prepared, Scenario, prepare_on};
@@ -106,10 +115,13 @@ mod tests {
             let queues =
                 Queues::new(&[(world.driver_parameters()[0].clone(), 1.0)], Fleet::default(), RoadLaw::FREE);
             let (network, assignment) = (world.network(), &world.assignment([0.0, 1.0]));
-            lanes::loads(&Roads { network, assignment, queues: &queues });
+            let equivalents = &Equivalents::default();
+            lanes::loads(&Roads { network, assignment, queues: &queues, equivalents });
             [&queues.streams, &queues.greens, &queues.beside].map(|it| it.0.borrow().len())
         });
-        assert!(counts[0][1] > 0 && counts[0] == counts[1], "{counts:?}");
+        // Greens of five seconds each up to the longest.
+        let [small, large] = counts;
+        assert!(small[1] > 0 && large[1] <= 24 && [large[0], large[2]] == [small[0], small[2]], "{counts:?}");
     }
 
     #[test]

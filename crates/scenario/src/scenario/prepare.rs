@@ -9,14 +9,16 @@ use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Setup, World};
 
-use super::basis::{Basis, usual};
+use super::basis::Basis;
 use super::demand::{check_ways, demand};
+use super::made_signals::MadeLights;
 use super::map::read_map;
 use super::mixture::mixture;
+use super::settling::{Settling, estimate, origins};
 use super::signals::plans;
 use super::turns::check_arrivals;
 use super::{Origin, Scenario, SumoFile};
-use crate::capacity::{Capacity, Estimate, Queues, inner_places};
+use crate::capacity::{Estimate, Queues};
 use crate::fault::Fault;
 use crate::remarks::{Remark, remarks};
 use crate::replay::{Player, Recorded};
@@ -162,26 +164,24 @@ fn prepare_with(
     let network = playing.permit(network);
     let remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
     let plans = plans(scenario, origin, &network)?;
-    let network = network.with_signals(&plans);
+    let made = MadeLights::of(scenario, &plans);
+    let network = Arc::new(network.with_signals(&plans));
     check_places(scenario, &places)?;
-    let network = Arc::new(network);
-    let build = |total: Option<f64>| {
-        let demand = demand(scenario, origin, &network, places.clone(), shares.clone(), total)?;
+    let build = |network: &Arc<Network>, total: Option<f64>| {
+        let demand = demand(scenario, origin, network, places.clone(), shares.clone(), total)?;
         let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
-        World::new(Arc::clone(&network), driver_parameters.clone(), demand, setup)
+        World::new(Arc::clone(network), driver_parameters.clone(), demand, setup)
             .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
     };
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
     let queues = Queues::new(&Population::by_speed(&mixture), scenario.demand.fleet(), network.law);
-    let (world, basis) = with_demand(scenario, build, |world| {
-        let assignment = world.assignment(measured);
-        Capacity::of(world.network(), &assignment, &inner_places(world.demand()), &queues)
-    })?;
+    let settling = Settling { scenario, measured, queues: &queues, made: &made };
+    let (world, basis) = settling.settle(&network, build)?;
     let origins = origins(&world, measured);
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);
     let world = equipped(world, warmup_steps, scenario, origin)?;
-    let capacity = estimate(&world, measured, queues);
+    let capacity = estimate(&world, measured, queues, made);
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let player = playing.player(scenario, origin, &world)?;
@@ -207,19 +207,6 @@ fn prepare_with(
     })
 }
 
-/// Where trips start in `world`, each with its mean demand between two times [s] [veh/h].
-fn origins(world: &World, [from, until]: [f64; 2]) -> Vec<(Place, f64)> {
-    world.demand().origins.iter().map(|it| (it.place.clone(), it.rate.mean(from, until))).collect()
-}
-
-/// The estimated capacity of the map of `world` for its demand between two times [s].
-fn estimate(world: &World, measured: [f64; 2], queues: Queues) -> Estimate {
-    // The world may learn of other routes before somebody asks.
-    let assignment = world.assignment(measured);
-    let (network, inner_places) = (world.shared_network(), inner_places(world.demand()));
-    Estimate::new(Box::new(move || Capacity::of(&network, &assignment, &inner_places, &queues)))
-}
-
 /// The sets of driver parameters of a world of `scenario`: those of its population, and further ones beside a
 /// recording.
 pub fn driving(scenario: &Scenario, driver_parameters: Vec<Style>) -> Vec<Style> {
@@ -228,24 +215,6 @@ pub fn driving(scenario: &Scenario, driver_parameters: Vec<Style>) -> Vec<Style>
     } else {
         driver_parameters
     }
-}
-
-/// The world that `build` makes with the demand of `scenario`, and the basis of that demand: a total, if the scenario
-/// leaves it open [veh/h]. It is that of the `capacity`, and none beside a recording.
-fn with_demand(
-    scenario: &Scenario,
-    build: impl Fn(Option<f64>) -> Result<World, Fault>,
-    capacity: impl Fn(&World) -> Capacity,
-) -> Result<(World, Basis), Fault> {
-    if !Basis::is_open(&scenario.demand) {
-        return Ok((build(None)?, Basis::Given));
-    }
-    if scenario.replay.is_asked() {
-        return Ok((build(Some(0.0))?, Basis::Given));
-    }
-    // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
-    let total = usual(&capacity(&build(Some(1.0))?));
-    Ok((build(total)?, if total.is_some() { Basis::Estimated } else { Basis::Usual }))
 }
 
 /// Checks that trips can start somewhere.

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum MadeSignals {
-    /// Fixed-time, with a cycle of 60 s.
+    /// Fixed-time: cycle and greens by Webster (1958), for the demand.
     #[default]
     Fixed,
     /// Actuated: greens of 5 to 40 s that traffic extends.
@@ -68,7 +68,7 @@ const LISTED: usize = 8;
 /// Maximum length of a part of a phase [s].
 const LONGEST: f64 = 3600.0;
 
-/// The signal plans of the lights of `network`.
+/// The signal plans that `scenario` gives to lights of `network`.
 ///
 /// # Errors
 /// If a light does not exist, a number is invalid, or lights whose movements conflict are green together.
@@ -89,12 +89,6 @@ pub(super) fn plans(
         }
         check_conflicts(&plan, &place, network, &conflicts)?;
         plans.push(plan);
-    }
-    if scenario.made_signals == MadeSignals::Actuated {
-        let is_named = |light: LightIndex| plans.iter().any(|it| it.lights().any(|other| other == light));
-        let made = network.junctions.made.iter().filter(|it| !it.lights().any(is_named));
-        let made: Vec<SignalPlan> = made.cloned().map(SignalPlan::actuated).collect();
-        plans.extend(made);
     }
     Ok(plans)
 }

@@ -229,6 +229,8 @@ impl Reservations {
         reservation.is_given = true;
         reservation.length = length;
         reservation.travelled = 0.0;
+        // Its last one may have ended before its lights.
+        reservation.lights.clear();
         slot
     }
 

@@ -269,13 +269,17 @@ fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64
     let (_, at) = reservation.lights().find(is_red)?;
     let line = reservation.travelled + at;
     let zone = reservation.zone_over(line);
-    let from = zone.map_or(line, |it| it.min(line));
+    let from = zone.map_or(line, |it| line.min(it - BEFORE_REVOKED));
     let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - reservation.travelled;
-    (from > reservation.travelled && stops_gently(speed, stop)).then_some(from)
+    let left = from - reservation.travelled;
+    (left > 0.0 && stops_gently(speed, stop.max(0.5 * left))).then_some(from)
 }
 
-/// Whether a driver at `speed` [m/s] can stop without hard braking for a place `at` metres ahead.
+/// Whether a driver at `speed` [m/s] can stop without hard braking for a place `at` metres ahead. It stops with room
+/// before the place; who comes slowly, with less.
 fn stops_gently(speed: f64, at: f64) -> bool {
-    let way = if speed < STANDS { at } else { at - ROOM_AT_A_STOP };
+    /// The part of the way that is enough for a slow driver (ours).
+    const SLOWLY: f64 = 0.25;
+    let way = if speed < STANDS { at } else { (at - ROOM_AT_A_STOP).max(SLOWLY * at) };
     speed * speed <= 2.0 * STOPS_AT_YELLOW * way.max(0.0)
 }

@@ -1,5 +1,5 @@
 //! Which lane of a roundabout a driver takes. Whoever leaves an inner lane crosses the outer one, so the outer lane is
-//! for those who leave soon: drivers who turn right and go straight on take it, those who turn left the inner one, as
+//! for those who leave soon: drivers who turn right take it, those who turn left the inner one, and others either, as
 //! signs before such roundabouts say (NCHRP Report 672, from memory).
 
 use laneweave_network::{ChainIndex, Network, ZoneKind};

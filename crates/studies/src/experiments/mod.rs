@@ -13,8 +13,10 @@ mod outcomes;
 mod plausibility;
 mod readings;
 mod recovery;
+mod roundabouts;
 mod route_weights;
 mod seen;
+mod signals;
 mod site_rates;
 mod styles;
 mod town_rates;
@@ -57,6 +59,16 @@ pub const EXPERIMENTS: &[Experiment] = &[
         name: "C3",
         about: "the paper's third claim: in congestion lane changes rise sharply with the weight of the route",
         run: route_weights::route_weights,
+    },
+    Experiment {
+        name: "signals",
+        about: "the delay at a light beside Webster's formula",
+        run: signals::signals,
+    },
+    Experiment {
+        name: "roundabouts",
+        about: "the capacity of entries to roundabouts beside the Highway Capacity Manual",
+        run: roundabouts::roundabouts,
     },
     Experiment { name: "styles", about: "what the drivers of each style do", run: styles::styles },
     Experiment {

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use laneweave::generate::{Arterial, Motorway, arterial, large_town, motorway, own_maps};
+use laneweave::generate::{
+    Arterial, Grid, Motorway, Roundabout, arterial, grid, large_town, motorway, own_maps, roundabout,
+};
 use laneweave::maps::{Law, Map, MapError};
 use laneweave::network::DrivingSide;
 use laneweave::scenario::{OdRow, Origin, Scenario, Signal, SignalPhase, VehiclesPerHour, mixture};
@@ -21,6 +23,14 @@ pub(crate) enum Road {
     Town(usize),
     /// A main street with one junction at lights, which are green for the approach from the west for most of the time.
     Lights,
+    /// Two streets of one lane in each direction that cross at lights. In each cycle [s] the first street, which runs
+    /// east and west, has this green [s].
+    Crossing {
+        cycle: f64,
+        green: f64,
+    },
+    /// A roundabout with so many lanes.
+    Roundabout(usize),
 }
 
 /// A change of the styles, in those that have its key.
@@ -59,8 +69,8 @@ pub(crate) enum Arriving {
     Total(f64),
     /// At the entrances with these smallest lanelet ids.
     At(Vec<(&'static str, f64)>),
-    /// From the entrance to the exit with these smallest lanelet ids.
-    Between([&'static str; 2], f64),
+    /// From entrances to exits with these smallest lanelet ids.
+    Between(Vec<([&'static str; 2], f64)>),
 }
 
 impl Traffic {
@@ -97,10 +107,13 @@ impl Traffic {
                 let at = |(id, flow): &(&str, f64)| ((*id).to_owned(), VehiclesPerHour::Constant(*flow));
                 scenario.demand.entrances = entrances.iter().map(at).collect::<BTreeMap<_, _>>();
             }
-            Arriving::Between([from, to], flow) => {
-                let [from, to] = [from, to].map(|it| (*it).to_owned());
+            Arriving::Between(pairs) => {
+                let row = |(ends, flow): &([&str; 2], f64)| {
+                    let [from, to] = ends.map(str::to_owned);
+                    OdRow { from, to, vehicles_per_hour: *flow }
+                };
                 scenario.demand.vehicles_per_hour = Some(0.0);
-                scenario.demand.od = vec![OdRow { from, to, vehicles_per_hour: *flow }];
+                scenario.demand.od = pairs.iter().map(row).collect();
             }
         }
         scenario.signals = self.road.signals();
@@ -152,25 +165,24 @@ impl Change {
 impl Road {
     /// Signal programs other than the generated ones.
     fn signals(&self) -> Vec<Signal> {
-        /// The lights of the approach from the west, and of the others.
+        /// Of the main street, the lights of the approach from the west, and of the others.
         const WEST: [i64; 2] = [162, 163];
         const OTHERS: [&[i64]; 3] = [&[159, 160], &[161], &[164]];
-        let phase = |green: &[i64], seconds: f64| SignalPhase {
-            green: green.to_vec(),
-            green_s: Some(seconds),
-            max_green_s: None,
-            min_green_s: None,
-            gap_s: None,
-            yellow_s: 3.0,
-            all_red_s: 2.0,
-        };
-        match self {
+        /// Of the crossing, the lights of each street.
+        const FIRST: [i64; 2] = [173, 175];
+        const SECOND: [i64; 2] = [174, 176];
+        /// Yellow and all-red of the crossing after each green [s].
+        const PAUSE: f64 = 6.0;
+        match *self {
             Road::Lights => {
-                let others = OTHERS.map(|it| phase(it, 5.0));
-                let phases = [phase(&WEST, 50.0)].into_iter().chain(others).collect();
-                vec![Signal { offset_s: 0.0, cycle_s: None, phases }]
+                let others = OTHERS.map(|it| phase(it, 5.0, 2.0));
+                vec![program([phase(&WEST, 50.0, 2.0)].into_iter().chain(others).collect())]
             }
-            _ => Vec::new(),
+            Road::Crossing { cycle, green } => {
+                let second = cycle - green - 2.0 * PAUSE;
+                vec![program(vec![phase(&FIRST, green, PAUSE - 3.0), phase(&SECOND, second, PAUSE - 3.0)])]
+            }
+            Road::Motorway(_) | Road::Own(_) | Road::Town(_) | Road::Roundabout(_) => Vec::new(),
         }
     }
 
@@ -182,11 +194,37 @@ impl Road {
                 let street = Arterial { junctions: 1, block_length_m: 600.0, ..Arterial::default() };
                 arterial(&street).map_err(|_| MapError::Missing)?.build()
             }
+            Road::Crossing { .. } => {
+                let streets =
+                    Grid { rows: 1, columns: 1, lanes: 1, block_length_m: 1000.0, ..Grid::default() };
+                grid(&streets).map_err(|_| MapError::Missing)?.build()
+            }
+            Road::Roundabout(lanes) => {
+                let wanted = Roundabout { lanes: *lanes, ..Roundabout::default() };
+                roundabout(&wanted).map_err(|_| MapError::Missing)?.build()
+            }
             Road::Own(name) => {
                 let maps = own_maps().map_err(|_| MapError::Missing)?;
                 let drawing = maps.into_iter().find(|it| it.0 == *name).ok_or(MapError::Missing)?.1;
                 drawing.build()
             }
         }
+    }
+}
+
+fn program(phases: Vec<SignalPhase>) -> Signal {
+    Signal { offset_s: 0.0, cycle_s: None, phases }
+}
+
+/// A phase with the lights `green` for so many `seconds`.
+fn phase(green: &[i64], seconds: f64, all_red_s: f64) -> SignalPhase {
+    SignalPhase {
+        green: green.to_vec(),
+        green_s: Some(seconds),
+        max_green_s: None,
+        min_green_s: None,
+        gap_s: None,
+        yellow_s: 3.0,
+        all_red_s,
     }
 }

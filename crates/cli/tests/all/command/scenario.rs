@@ -81,7 +81,7 @@ fn each_default_behind_a_hash_changes_nothing() {
         is_example = is_example && !line.is_empty();
     }
     fs::write(folder.path().join("all.toml"), &kept).unwrap();
-    assert!(kept.contains("\n[[signals]]\n") && kept.contains("\nvehicles_per_hour = 2158.0\n"));
+    assert!(kept.contains("\n[[signals]]\n") && kept.contains("\nvehicles_per_hour = "));
     assert_eq!(folder.summary("all.toml --duration 20 --record 0")["state_hash"], bare);
 }
 

@@ -23,13 +23,16 @@ fn lights_follow_the_program_of_the_scenario() {
         assert_eq!((&summary["collisions"], &summary["stuck"]), (&0.into(), &0.into()));
         summary["mean_delay_s"].as_f64().unwrap()
     };
-    let two_phases = format!(
-        "[[signals]]\noffset_s = 5\ncycle_s = 60\nphases = [\n  {{ green = {EAST_AND_WEST}, green_s = 25 }},\n  \
-         {{ green = {NORTH_AND_SOUTH}, green_s = 24, yellow_s = 4 }},\n]"
-    );
-    // The generated program has a phase for each arm.
-    let [made, own] = [delay(""), delay(&two_phases)];
-    assert!(own < 0.5 * made, "{own} s against {made} s");
+    let two_phases = |east_and_west: f64, north_and_south: f64| {
+        format!(
+            "[[signals]]\noffset_s = 5\nphases = [\n  {{ green = {EAST_AND_WEST}, green_s = {east_and_west} }},\n  \
+             {{ green = {NORTH_AND_SOUTH}, green_s = {north_and_south}, yellow_s = 4 }},\n]"
+        )
+    };
+    let [made, own, long] = [delay(""), delay(&two_phases(25.0, 24.0)), delay(&two_phases(80.0, 80.0))];
+    // The made program is as good as one that was drawn by hand, and better than one with long cycles.
+    assert!(made < 1.1 * own, "{made} s against {own} s");
+    assert!(made < 0.7 * long, "{made} s against {long} s");
 }
 
 #[test]
@@ -53,7 +56,8 @@ fn greens_that_traffic_extends_shorten_delays_where_one_road_is_quiet() {
     let extended = delay(&program("max_green_s = 25, min_green_s = 4, gap_s = 1.5"));
     let [made, made_actuated] = ["fixed", "actuated"].map(|it| delay(&format!("made_signals = \"{it}\"")));
     assert!(extended < 0.7 * fixed, "{extended} s against {fixed} s");
-    assert!(made_actuated < 0.7 * made, "{made_actuated} s against {made} s");
+    // A made program with fixed greens gives the quiet road little.
+    assert!(made < 0.8 * fixed && made_actuated < 0.95 * made, "{made_actuated} s, {made} s, {fixed} s");
 }
 
 #[test]
@@ -88,12 +92,12 @@ fn a_program_that_cannot_be_is_refused_with_its_place_and_a_remedy() {
         ),
         (
             format!("[[signals]]\nphases = [{}]", green("[65, 67]")),
-            "own.toml:9:13: the traffic lights 65 and 67 are green together, but lanelets 50 and 53 conflict, and neither has \
+            "own.toml:9:13: the traffic lights 65 and 67 are green together, but lanelets 49 and 53 conflict, and neither has \
              priority; put them into different phases",
         ),
         (
             format!("[[signals]]\nphases = [{}]", green(EAST_AND_WEST)),
-            "own.toml:9:13: the traffic light 67 has no phase, but conflicts with 65: lanelets 50 and 53 conflict; add it to a \
+            "own.toml:9:13: the traffic light 67 has no phase, but conflicts with 65: lanelets 49 and 53 conflict; add it to a \
              phase of this program",
         ),
         (

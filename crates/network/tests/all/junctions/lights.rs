@@ -1,10 +1,11 @@
-//! Lights without a program get one: conflicting movements are never green at once.
+//! Programs of lights: what they show when, and those that are made for lights without one.
 
+use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
 use laneweave_network::{
-    Junctions, LaneletIndex, LightIndex, LightState, Phase, Point, Polyline, Program, Regulations,
-    SignalPlan, StopKind, StopRule, Turn,
+    DrivingSide, LaneletIndex, LightIndex, LightState, LightTraffic, Network, Phase, Point, Polyline,
+    Position, Program, Regulations, SignalPlan, StopKind, StopRule, Turn,
 };
 
 use crate::junctions::drawn::{Lanes, arc, straight};
@@ -27,7 +28,7 @@ fn turned(point: Point, quarters: usize) -> Point {
 
 /// A junction of four arms with a light at each: lanes 0 to 3 lead to it, from the west, south, east and north, lanes 4
 /// to 7 away, and the others through it.
-fn four_arms(movements: Movements) -> Junctions {
+fn four_arms(movements: Movements) -> Network {
     let around = |line: &[Point], quarters: usize| line.iter().map(|it| turned(*it, quarters)).collect();
     let to = straight((-100.0, -BESIDE), (-LINE, -BESIDE));
     let away = straight((LINE, -BESIDE), (100.0, -BESIDE));
@@ -61,12 +62,29 @@ fn four_arms(movements: Movements) -> Junctions {
         lanelets: vec![LaneletIndex(arm)],
         lines: Vec::new(),
     };
-    lanes.junctions(&Regulations { stops: (0..4).map(light).collect(), ..Regulations::default() })
+    let regulations = Regulations { stops: (0..4).map(light).collect(), ..Regulations::default() };
+    lanes.network(DrivingSide::Right).regulated(&regulations)
 }
 
-/// Moments of a cycle of 60 s, twenty a second.
+/// The plans for flows [veh/h] on the lanes from the west, south, east and north, from which everybody goes straight
+/// on. A lane bears 1,800 veh/h.
+fn plans(network: &Network, flows: [f64; 4]) -> Vec<SignalPlan> {
+    let flow = |at: Position| match network.lanelet_at(at).0.id {
+        lane @ 0..4 => flows[lane as usize] / 3600.0,
+        way => flows[way.max(8) as usize - 8] / 3600.0,
+    };
+    network.made_signals(&LightTraffic { flow: &flow, saturation: &|_| 0.5 }, &BTreeSet::new())
+}
+
+/// The lights of each phase, in words.
+fn phases(plan: &SignalPlan) -> Vec<String> {
+    let word = |it: &LightIndex| ["west", "south", "east", "north"][it.at()];
+    plan.turns.iter().map(|it| it.lights.iter().map(word).collect::<Vec<_>>().join(" ")).collect()
+}
+
+/// Moments of two cycles of at most 60 s, twenty a second.
 fn moments() -> impl Iterator<Item = f64> {
-    (0..1200).map(|it| f64::from(it) / 20.0)
+    (0..2400).map(|it| f64::from(it) / 20.0)
 }
 
 fn program(phases: &[(f64, f64)]) -> Program {
@@ -76,44 +94,64 @@ fn program(phases: &[(f64, f64)]) -> Program {
 
 /// Shortest time in which both lights are red between the yellow of one and the green of the other [s].
 fn all_red(one: &Program, other: &Program) -> f64 {
-    let ends = one.phases.iter().map(|it| it.to + 3.0);
+    let ends = one.phases.iter().map(|it| it.to + it.yellow);
     let begins = || other.phases.iter().map(|it| it.from);
-    ends.flat_map(|end| begins().map(move |begin| (begin - end).rem_euclid(60.0))).fold(60.0, f64::min)
+    ends.flat_map(|end| begins().map(move |begin| (begin - end).rem_euclid(one.cycle))).fold(60.0, f64::min)
 }
 
 #[test]
-fn four_arms_whose_movements_all_conflict_have_a_quarter_of_60_s_each() {
-    let lights = four_arms(Movements::All).lights;
-    assert_eq!(lights.iter().map(|it| it.id).collect::<Vec<_>>(), [100, 101, 102, 103]);
-    for (light, turn) in lights.iter().zip(0..) {
-        assert_eq!(light.program.cycle, 60.0);
-        let [phase] = light.program.phases[..] else { panic!("{:?}", light.program) };
-        // The longest path is the one straight on, 24 m and a sample: 3.0625 s at 8 m/s, after 3 s of yellow.
-        assert!((phase.from - 15.0 * f64::from(turn)).abs() < 1e-9, "{phase:?}");
-        assert!((phase.to - phase.from - (15.0 - 3.0 - 24.5 / 8.0)).abs() < 1e-9, "{phase:?}");
+fn opposing_approaches_are_green_together_and_turns_across_them_are_permitted() {
+    for movements in [Movements::All, Movements::Straight] {
+        let junctions = four_arms(movements).junctions;
+        let ids: Vec<i64> = junctions.lights.iter().map(|it| it.id).collect();
+        assert_eq!(ids, [100, 101, 102, 103]);
+        let [plan] = &junctions.made[..] else { panic!("{:?}", junctions.made) };
+        assert_eq!(phases(plan), ["west east", "south north"]);
+        assert_eq!(plan.turns[0].green, plan.turns[1].green);
+        let [west, south, east, north] = &junctions.lights[..] else { panic!() };
+        assert_eq!((&west.program, &south.program), (&east.program, &north.program));
     }
 }
 
 #[test]
-fn lights_of_movements_that_do_not_conflict_are_green_together() {
-    let lights = four_arms(Movements::Straight).lights;
-    let [west, south, east, north] = &lights[..] else { panic!("{} lights", lights.len()) };
-    assert_eq!(west.program, east.program);
-    assert_eq!(south.program, north.program);
-    assert_eq!(west.program.phases[0].from, 0.0);
-    assert_eq!(south.program.phases[0].from, 30.0);
+fn cycle_and_greens_are_those_of_webster() {
+    // 16.7 m from the line to the end of the last zone, at 8 m/s: an all-red time of 2.1 s after 3 s of yellow.
+    let lost = 2.0 * (3.0 + 2.1);
+    let network = four_arms(Movements::Straight);
+    for [west, south] in [[900.0, 450.0], [450.0, 450.0], [700.0, 500.0], [1000.0, 300.0]] {
+        // The critical lanes are those with more traffic.
+        let [plan] = &plans(&network, [west, south, 0.5 * west, 0.1 * south])[..] else { panic!() };
+        let ratios = [west, south].map(|it| it / 1800.0);
+        let sum: f64 = ratios.iter().sum();
+        let cycle = ((1.5 * lost + 5.0) / (1.0 - sum)).clamp(40.0, 120.0).ceil();
+        assert!((plan.cycle() - cycle).abs() < 1e-9, "{} s, not {cycle} s", plan.cycle());
+        for (turn, ratio) in plan.turns.iter().zip(ratios) {
+            assert_eq!((turn.yellow, turn.all_red), (3.0, 2.1));
+            let green = (cycle - lost) * ratio / sum;
+            assert!((turn.green - green).abs() <= 0.05 + 1e-9, "{} s, not {green} s", turn.green);
+        }
+    }
+}
+
+#[test]
+fn no_green_is_shorter_than_five_seconds_and_no_cycle_longer_than_two_minutes() {
+    let network = four_arms(Movements::Straight);
+    let [plan] = &plans(&network, [900.0, 10.0, 900.0, 10.0])[..] else { panic!() };
+    assert_eq!(plan.turns[1].green, 5.0);
+    let [plan] = &plans(&network, [1700.0, 900.0, 1700.0, 900.0])[..] else { panic!() };
+    assert!((plan.cycle() - 120.0).abs() < 1e-9);
+    let share = plan.turns[0].green / (plan.turns[0].green + plan.turns[1].green);
+    assert!((share - 17.0 / 26.0).abs() < 1e-3, "{share}");
+    let [plan] = &plans(&network, [0.0; 4])[..] else { panic!() };
+    assert_eq!(plan.turns[0].green, plan.turns[1].green);
 }
 
 #[test]
 fn conflicting_lights_never_let_anybody_go_at_once_and_leave_time_to_clear() {
     // From the line to the end of the junction, where lanes merge; to the further lane across, and 2.70 m.
     for (movements, clearance) in [(Movements::All, 24.0), (Movements::Straight, LINE + BESIDE + 2.7)] {
-        let lights = four_arms(movements).lights;
-        let conflict = |a: usize, b: usize| match movements {
-            Movements::All => a != b,
-            Movements::Straight => (a + b) % 2 == 1,
-        };
-        for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))).filter(|(a, b)| conflict(*a, *b)) {
+        let lights = four_arms(movements).junctions.lights;
+        for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))).filter(|(a, b)| (a + b) % 2 == 1) {
             let [one, other] = [a, b].map(|it| &lights[it].program);
             let is_let = |program: &Program, at: f64| program.state(at) != LightState::Red;
             let both = moments().find(|at| is_let(one, *at) && is_let(other, *at));
@@ -121,15 +159,63 @@ fn conflicting_lights_never_let_anybody_go_at_once_and_leave_time_to_clear() {
             let pause = all_red(one, other);
             assert!(pause >= f64::max(2.0, clearance / 8.0) - 1e-9, "{pause} s between {a} and {b}");
         }
+        for light in &lights {
+            assert!(light.program.green_share() > 0.1);
+            assert!(moments().any(|at| light.program.state(at) == LightState::Green));
+        }
     }
 }
 
+/// A street to the east with lights at two junctions 300 m from each other, at each of which a lane crosses from the
+/// south. Lanes 0 and 1 lead to the lights of the street, 2 and 3 to those of the others.
+fn street() -> Network {
+    let mut lanes = Lanes::default();
+    for (from, to, next) in [(-200.0, -10.0, 4), (10.0, 290.0, 5)] {
+        lanes = lanes.with(straight((from, 0.0), (to, 0.0)), &[next]);
+    }
+    for (x, next) in [(0.0, 6), (300.0, 7)] {
+        lanes = lanes.with(straight((x, -200.0), (x, -10.0)), &[next]);
+    }
+    lanes = lanes.with(straight((-10.0, 0.0), (10.0, 0.0)), &[1]);
+    lanes = lanes.with(straight((290.0, 0.0), (500.0, 0.0)), &[]);
+    for x in [0.0, 300.0] {
+        lanes = lanes.with(straight((x, -10.0), (x, 200.0)), &[]);
+    }
+    let light = |lane: u32| StopRule {
+        id: 100 + i64::from(lane),
+        kind: StopKind::Light,
+        lanelets: vec![LaneletIndex(lane)],
+        lines: Vec::new(),
+    };
+    let regulations = Regulations { stops: (0..4).map(light).collect(), ..Regulations::default() };
+    lanes.network(DrivingSide::Right).regulated(&regulations)
+}
+
 #[test]
-fn every_light_is_green_in_every_cycle() {
-    for movements in [Movements::All, Movements::Straight] {
-        for light in four_arms(movements).lights {
-            assert!(moments().any(|at| light.program.state(at) == LightState::Green));
-            assert!(light.program.green_share() > 0.1);
+fn along_a_street_a_platoon_meets_green_at_the_next_light() {
+    let network = street();
+    for along in [200.0, 500.0, 800.0] {
+        let flow = |at: Position| match network.lanelet_at(at).0.id {
+            0 | 1 | 4 | 5 => along / 3600.0,
+            _ => 200.0 / 3600.0,
+        };
+        let plans =
+            network.made_signals(&LightTraffic { flow: &flow, saturation: &|_| 0.5 }, &BTreeSet::new());
+        assert_eq!(plans.len(), 2);
+        let cycle = plans[0].cycle();
+        assert!((plans[1].cycle() - cycle).abs() < 1e-9);
+        let green = |light: u32| {
+            let program = plans.iter().find(|it| it.lights().any(|of| of.at() == light as usize)).unwrap();
+            program.program(LightIndex(light)).phases[0]
+        };
+        let (first, second) = (green(0), green(1));
+        // The platoon leaves while its light is green and the queue lasts, and drives 300 m at 50 km/h from rest.
+        let ratio = along / 1800.0;
+        let leaves = (first.to - first.from) * (ratio * cycle / (first.to - first.from)).min(1.0);
+        let drives = 1.0 + 0.5 * (50.0 / 3.6) / 1.5 + 300.0 / (50.0 / 3.6);
+        for part in [0.1, 0.5, 0.9] {
+            let since = (first.from + part * leaves + drives - second.from).rem_euclid(cycle);
+            assert!(since < second.to - second.from, "{along} veh/h: {part} of the platoon waits");
         }
     }
 }

@@ -159,3 +159,15 @@ fn of_those_who_wait_on_one_side_the_impatient_then_the_longest_waiting_claims_t
     reservations.clear_priorities();
     assert_eq!(reservations.priority(ZONE, 0), None);
 }
+
+#[test]
+fn a_new_reservation_has_no_lights_of_an_earlier_one() {
+    let mut reservations = of_one_zone();
+    let far_light = Survey { lights: vec![(LightIndex(0), 30.0)], ..over_the_zone(0) };
+    let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &far_light);
+    reservations.advance(slot, 19.5, 10.0, 14.0);
+    let second = reservations.grant(NO_RESERVATION, 3, LENGTH, &over_the_zone(0));
+    assert_eq!(second, slot);
+    let lights: Vec<f64> = reservations.of(slot, 3).unwrap().lights().map(|it| it.1).collect();
+    assert_eq!(lights, [8.0]);
+}

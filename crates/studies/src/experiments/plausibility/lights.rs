@@ -21,7 +21,7 @@ const STRAIGHT_ON: [&str; 2] = ["1", "93"];
 pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
     let queue = Traffic {
         road: Road::Lights,
-        demand: Arriving::Between(STRAIGHT_ON, 3000.0),
+        demand: Arriving::Between(vec![(STRAIGHT_ON, 3000.0)]),
         trucks: 0.0,
         times: [300.0, 1200.0],
         ..Traffic::on_motorway(1, 0.0)
