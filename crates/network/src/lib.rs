@@ -42,5 +42,5 @@ pub use network::Network;
 pub use polygon::Polygon;
 pub use rectangle::Rectangle;
 pub use section::{Branch, Section, Sections};
-pub use signals::{LaneFlows, LightTraffic};
+pub use signals::{LaneFlows, LightTraffic, Lights};
 pub use symmetry::{Symmetry, symmetry};

@@ -52,9 +52,9 @@ impl Signal {
         self.arrivals_veh_h * self.cycle_s / (self.saturation_veh_h * self.green_s)
     }
 
-    /// Mean delay of vehicles that arrive at random, as a Poisson process [s] (Webster, 1958, from memory): with λ = g/C,
-    /// C (1 − λ)²/(2 (1 − λ x)) + x²/(2 q (1 − x)) − 0.65 (C/q²)^⅓ x^(2 + 5 λ). `None` if as many or more arrive than can
-    /// leave, or nobody.
+    /// Mean delay of vehicles that arrive at random, as a Poisson process [s] (Webster, 1958, from memory): with
+    /// λ = g/C, C (1 − λ)²/(2 (1 − λ x)) + x²/(2 q (1 − x)) − 0.65 (C/q²)^⅓ x^(2 + 5 λ). `None` if as many or more
+    /// arrive than can leave, or nobody.
     pub fn random_delay_s(&self) -> Option<f64> {
         let (x, share) = (self.saturation(), self.green_s / self.cycle_s);
         let arrivals = self.arrivals_veh_h / SECONDS_PER_HOUR;

@@ -20,7 +20,7 @@ fn junction(lanes: usize, driving_side: DrivingSide) -> Network {
 /// The plans for this flow everywhere [veh/h].
 fn plans(network: &Network, flow: f64) -> Vec<SignalPlan> {
     let traffic = LightTraffic { flow: &|_| flow / 3600.0, saturation: &|_| 0.5 };
-    network.made_signals(&traffic, &BTreeSet::new())
+    network.lights().programs(&traffic)
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn made_programs_are_sound_on_random_maps_for_random_flows() {
                 |at: Position| 0.1 + 0.9 * ((at.chain.at() as f64 * 0.618 + seed as f64 * 0.37).fract());
             let flow = |at: Position| amount * spread(at) / 3600.0;
             let traffic = LightTraffic { flow: &flow, saturation: &|_| 0.5 };
-            check(&network, &network.made_signals(&traffic, &BTreeSet::new()));
+            check(&network, &network.lights().programs(&traffic));
         }
     }
 }

@@ -77,8 +77,9 @@ impl SignalPlan {
         self.turns.iter().map(Turn::duration).sum()
     }
 
-    /// The same lights, actuated, with greens of 5 to 40 s; ours.
+    /// The same lights, actuated, with greens of 5 to 40 s; ours. Actuated plans have no offset.
     pub fn actuated(mut self) -> SignalPlan {
+        self.offset = 0.0;
         for turn in &mut self.turns {
             (turn.green, turn.extension) = (LONGEST_GREEN, Some(Extension::default()));
         }

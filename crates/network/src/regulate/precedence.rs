@@ -6,9 +6,12 @@ use std::f64::consts::PI;
 
 use super::kinship::Kinship;
 use crate::chain::ChainIndex;
-use crate::junction::{Precedence, Regulations, StopKind, Touch, Zone};
+use crate::junction::{Precedence, Reach, Regulations, StopKind, Touch, Zone};
 use crate::lanelet::LaneletIndex;
 use crate::network::Network;
+
+/// A lane that leads out of a ring has left it after this length [m] (ours).
+const LEAVES_WITHIN: f64 = 15.0;
 
 /// Stop signs that the drivers on a lanelet obey.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
@@ -36,15 +39,16 @@ pub(super) fn settle(
         }
     }
     let orders = orders(network, regulations);
-    // Also who leaves it is still in it: where an inner lane is left across the outer one, who comes first goes first.
-    let is_in_roundabout = |chain: ChainIndex| {
-        in_ring[chain.at()] || network.chain(chain).previous.iter().any(|it| in_ring[it.at()])
+    // Who leaves it is still in it: where an inner lane is left across the outer one, who comes first goes first.
+    let is_in_roundabout = |side: &Reach| {
+        let comes_out = || network.chain(side.chain).previous.iter().any(|it| in_ring[it.at()]);
+        in_ring[side.chain.at()] || side.start < LEAVES_WITHIN && comes_out()
     };
     for zone in zones.iter_mut() {
         let chains = zone.sides.map(|it| it.chain);
         zone.precedence = by_priority(network, kinship, &orders, chains)
             .or_else(|| by_stop_signs(network, kinship, &marks, chains))
-            .or_else(|| first_of(chains.map(is_in_roundabout)))
+            .or_else(|| first_of(zone.sides.each_ref().map(is_in_roundabout)))
             .unwrap_or_else(|| by_shape(network, zone));
     }
 }

@@ -1,4 +1,4 @@
-//! The approaches of a junction: lights at lanes that come side by side, in one direction.
+//! The approaches of a junction: lights at lanes that come side by side, or one after the other, in one direction.
 
 use std::f64::consts::FRAC_PI_6;
 
@@ -6,51 +6,52 @@ use super::lanes::Lane;
 use crate::geometry::{Point, turn};
 use crate::junction::LightIndex;
 
-/// Lanes of one approach: their directions differ by less [rad], and each of their lines is this near to another [m].
-/// Ours.
+/// Lanes of one approach: their directions differ by less [rad], and each of their lines is this near to another [m],
+/// or lies on a way from it. Ours.
 const ONE_DIRECTION: f64 = FRAC_PI_6;
 const BESIDE: f64 = 15.0;
 
 /// An approach.
-pub(super) struct Approach {
+pub(super) struct Approach<'a> {
     /// Its lights, in order.
     pub(super) lights: Vec<LightIndex>,
-    /// Its lanes, by number.
-    pub(super) lanes: Vec<usize>,
+    pub(super) lanes: Vec<&'a Lane>,
     /// Its direction at the line [rad].
     pub(super) heading: f64,
 }
 
-/// The approaches of the junction of `members`, in the order of their first lights.
-pub(super) fn approaches(lanes: &[Lane], members: &[LightIndex]) -> Vec<Approach> {
-    let own: Vec<usize> = (0..lanes.len()).filter(|it| members.contains(&lanes[*it].light)).collect();
-    let mut taken = vec![false; own.len()];
+/// The approaches of a junction with these `lanes`, in the order of their first lights.
+pub(super) fn approaches<'a>(lanes: &[&'a Lane]) -> Vec<Approach<'a>> {
+    let mut is_taken = vec![false; lanes.len()];
     let mut found: Vec<Approach> = Vec::new();
-    for first in 0..own.len() {
+    for first in 0..lanes.len() {
         let mut open = vec![first];
         let mut group = Vec::new();
         while let Some(at) = open.pop() {
-            if !std::mem::replace(&mut taken[at], true) {
-                group.push(own[at]);
-                let is_joined = |it: &usize| are_joined(&lanes[own[at]], &lanes[own[*it]]);
-                open.extend((0..own.len()).filter(|it| !taken[*it]).filter(is_joined));
+            if !std::mem::replace(&mut is_taken[at], true) {
+                group.push(at);
+                let is_joined = |it: &usize| !is_taken[*it] && are_joined(lanes[at], lanes[*it]);
+                open.extend((0..lanes.len()).filter(is_joined));
             }
         }
         if !group.is_empty() {
             group.sort_unstable();
-            let mut lights: Vec<LightIndex> = group.iter().map(|it| lanes[*it].light).collect();
+            let lanes: Vec<&Lane> = group.iter().map(|it| lanes[*it]).collect();
+            let mut lights: Vec<LightIndex> = lanes.iter().map(|it| it.light).collect();
             lights.sort_unstable();
             lights.dedup();
-            found.push(Approach { heading: lanes[group[0]].heading, lights, lanes: group });
+            found.push(Approach { heading: lanes[0].heading, lights, lanes });
         }
     }
     found.sort_by_key(|it| it.lights[0]);
     found
 }
 
-/// Whether two lanes have one light, or come side by side.
+/// Whether two lanes have one light, or come side by side or one after the other.
 fn are_joined(one: &Lane, other: &Lane) -> bool {
     let distance = |a: Point, b: Point| (a.x - b.x).hypot(a.y - b.y);
-    one.light == other.light
-        || turn(one.heading, other.heading).abs() < ONE_DIRECTION && distance(one.point, other.point) < BESIDE
+    let leads_to = |from: &Lane, to: &Lane| from.ways.iter().any(|it| it.chains.contains(&to.stop.chain));
+    let are_near =
+        || distance(one.point, other.point) < BESIDE || leads_to(one, other) || leads_to(other, one);
+    one.light == other.light || turn(one.heading, other.heading).abs() < ONE_DIRECTION && are_near()
 }

@@ -1,7 +1,8 @@
 //! How much of the time the lights of a stage need: the flow ratio of its critical lane.
 //!
-//! A vehicle that turns across oncoming traffic takes a gap in it. It counts as as many vehicles as would leave in that
-//! time (the through-car equivalents of the Highway Capacity Manual; here from gap acceptance, after Siegloch, 1973).
+//! A vehicle that turns across oncoming traffic takes a gap in it. It counts as the number of vehicles that could leave
+//! in that time (the through-car equivalents of the Highway Capacity Manual; here from gap acceptance, after Siegloch,
+//! 1973).
 //! Before the first gap, the oncoming queue has to pass. Two such vehicles leave in each cycle when green ends.
 
 use std::collections::BTreeMap;
@@ -60,6 +61,8 @@ pub(super) struct Flows<'a> {
     pub(super) junctions: &'a Junctions,
     pub(super) traffic: &'a LightTraffic<'a>,
     pub(super) lanes: &'a [Lane],
+    /// For each light the lanes before it, by number.
+    pub(super) before: &'a [Vec<usize>],
 }
 
 /// The lanes that are green together.
@@ -71,27 +74,30 @@ struct Together<'a> {
 }
 
 impl Flows<'_> {
-    /// The stages with these lights, with what they need.
-    pub(super) fn measured(&self, stages: Vec<Vec<LightIndex>>) -> Vec<Stage> {
-        let stage = |lights: Vec<LightIndex>| {
-            let lanes = self.lanes.iter().filter(|it| lights.contains(&it.light));
-            let clearance = lanes.clone().map(|it| it.clearance).fold(0.0, f64::max);
-            let flow_ratio = Together::new(self, lanes.collect()).flow_ratio();
-            Stage { lights, flow_ratio, all_red: timing::all_red(clearance) }
-        };
-        stages.into_iter().map(stage).collect()
+    /// The lanes before these lights.
+    fn lanes_of<'b>(&self, lights: impl IntoIterator<Item = &'b LightIndex>) -> Vec<&'_ Lane> {
+        lights.into_iter().flat_map(|it| &self.before[it.at()]).map(|it| &self.lanes[*it]).collect()
+    }
+
+    /// The stage with these lights, with what it needs.
+    pub(super) fn measured(&self, lights: Vec<LightIndex>) -> Stage {
+        let flow_ratio = Together::new(self, self.lanes_of(&lights)).flow_ratio();
+        Stage { all_red: self.all_red(&lights), lights, flow_ratio }
+    }
+
+    /// All-red time after a stage with these lights [s].
+    pub(super) fn all_red(&self, lights: &[LightIndex]) -> f64 {
+        timing::all_red(self.lanes_of(lights).iter().map(|it| it.clearance).fold(0.0, f64::max))
     }
 
     /// The flows of each lane while its light and those that are green at the same time let go.
     pub(super) fn at_lights(&self, rivals: &Rivals) -> Vec<LaneFlows> {
         let lights = &self.junctions.lights;
-        let mut before: Vec<Vec<&Lane>> = vec![Vec::new(); lights.len()];
-        self.lanes.iter().for_each(|it| before[it.light.at()].push(it));
         let flows = |lane: &Lane| {
             let own = &lights[lane.light.at()].program;
             let is_met = |it: &&LightIndex| own.is_green_with(&lights[it.at()].program);
-            let met = rivals.any[lane.light.at()].iter().filter(is_met);
-            Together::new(self, met.flat_map(|it| before[it.at()].iter().copied()).collect()).flows(lane)
+            let met = rivals.any[lane.light.at()].iter().filter(is_met).chain([&lane.light]);
+            Together::new(self, self.lanes_of(met)).flows(lane)
         };
         self.lanes.iter().map(flows).collect()
     }
@@ -126,6 +132,13 @@ impl Flows<'_> {
     /// oncoming flow [veh/s].
     pub(super) fn across(&self, lane: &Lane, before: &[&Lane]) -> [f64; 2] {
         Together::new(self, before.to_vec()).across(lane)
+    }
+
+    /// Of the lanes `before` which drivers on `lane` may go, those to whose drivers they give way.
+    pub(super) fn oncoming<'b>(&self, lane: &Lane, before: &[&'b Lane]) -> Vec<&'b Lane> {
+        let given: Vec<(ZoneIndex, u8)> = lane.ways.iter().flat_map(|it| self.gives_way_to(it)).collect();
+        let is_oncoming = |it: &&&Lane| it.zones().any(|(zone, side)| given.contains(&(zone, 1 - side)));
+        before.iter().filter(is_oncoming).copied().collect()
     }
 }
 

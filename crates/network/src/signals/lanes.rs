@@ -1,5 +1,7 @@
 //! The lanes before lights, and the ways beyond them.
 
+use std::collections::BTreeMap;
+
 use crate::chain::{ChainIndex, Position};
 use crate::geometry::Point;
 use crate::junction::{Junctions, LightIndex, Sign, Touch, ZoneIndex};
@@ -10,6 +12,8 @@ const REACH: f64 = 80.0;
 const NEXT: f64 = 25.0;
 /// The direction of a lane is taken this far before its line [m].
 const BEFORE: f64 = 3.0;
+/// A line this close to the start of a chain holds up the lane that forks there [m]. Ours.
+const AT_THE_FORK: f64 = 5.0;
 
 /// A lane that leads to a light.
 pub(super) struct Lane {
@@ -30,7 +34,9 @@ pub(super) struct Lane {
 pub(super) struct Way {
     /// The zones on it, each with its side.
     pub(super) zones: Vec<(ZoneIndex, u8)>,
-    /// The first place beyond the line that other ways from there do not pass.
+    /// The chains on it.
+    pub(super) chains: Vec<ChainIndex>,
+    /// A place on it that no other way from the same lane passes, if there is one.
     pub(super) via: Position,
     /// The place where it ends.
     pub(super) end: Position,
@@ -43,20 +49,36 @@ impl Lane {
     pub(super) fn zones(&self) -> impl Iterator<Item = (ZoneIndex, u8)> {
         self.ways.iter().flat_map(|it| it.zones.iter().copied())
     }
+
+    /// The lane of the drivers who stop at `stop`, with the ways from there on.
+    fn before(network: &Network, junctions: &Junctions, light: LightIndex, stop: Position) -> Lane {
+        let centre = &network.chain(stop.chain).centre;
+        let (point, heading) = (centre.at(stop.x), centre.heading((stop.x - BEFORE).max(0.0)));
+        let (ways, clearance) = ways(network, junctions, stop);
+        Lane { light, stop, point, heading, ways, clearance }
+    }
 }
 
-/// The lanes before lights, in the order of chains.
+/// The lanes before lights, in the order of chains. Where a lane forks into several at their lines, it is one lane.
 pub(super) fn lanes(network: &Network, junctions: &Junctions) -> Vec<Lane> {
-    let mut lanes = Vec::new();
+    let mut lanes: Vec<Lane> = Vec::new();
+    let mut forks: BTreeMap<(LightIndex, ChainIndex), usize> = BTreeMap::new();
     for (chain, index) in junctions.chains.iter().zip(0..) {
         for stop in &chain.stops {
-            if let Sign::Light(light) = stop.sign {
-                let stop = Position::new(ChainIndex(index), stop.station);
-                let centre = &network.chain(stop.chain).centre;
-                let (point, heading) = (centre.at(stop.x), centre.heading((stop.x - BEFORE).max(0.0)));
-                let (ways, clearance) = ways(network, junctions, stop);
-                lanes.push(Lane { light, stop, point, heading, ways, clearance });
+            let Sign::Light(light) = stop.sign else { continue };
+            let mut lane =
+                Lane::before(network, junctions, light, Position::new(ChainIndex(index), stop.station));
+            let previous = &network.chains[index as usize].previous;
+            if let ([fork], true) = (&previous[..], stop.station < AT_THE_FORK) {
+                if let Some(known) = forks.get(&(light, *fork)) {
+                    lanes[*known].clearance = lanes[*known].clearance.max(lane.clearance);
+                    lanes[*known].ways.extend(lane.ways);
+                    continue;
+                }
+                lane.stop = Position::new(*fork, network.chain(*fork).length);
+                forks.insert((light, *fork), lanes.len());
             }
+            lanes.push(lane);
         }
     }
     lanes
@@ -71,14 +93,18 @@ struct Open {
     /// Distance from the stop to the chain's start, and to the end of the last zone [m].
     base: f64,
     reached: f64,
+    /// It has not forked yet.
+    is_whole: bool,
 }
 
 /// The ways beyond a `stop`, and the clearance.
 fn ways(network: &Network, junctions: &Junctions, stop: Position) -> (Vec<Way>, f64) {
     let (mut ways, mut clearance) = (Vec::new(), 0.0_f64);
-    let way = Way { zones: Vec::new(), via: stop, end: stop, length: 0.0 };
-    let mut open = vec![Open { way, chain: stop.chain, from: stop.x, base: -stop.x, reached: NEXT }];
-    while let Some(Open { mut way, chain, from, base, mut reached }) = open.pop() {
+    let way = Way { zones: Vec::new(), chains: Vec::new(), via: stop, end: stop, length: 0.0 };
+    let (chain, from) = (stop.chain, stop.x);
+    let mut open = vec![Open { way, chain, from, base: -from, reached: NEXT, is_whole: true }];
+    while let Some(Open { mut way, chain, from, base, mut reached, is_whole }) = open.pop() {
+        way.chains.push(chain);
         for crossing in &junctions.on(chain).crossings {
             let reach = junctions.reach(*crossing);
             let is_ahead = reach.end > from && base + reach.start < (reached + NEXT).min(REACH);
@@ -91,10 +117,11 @@ fn ways(network: &Network, junctions: &Junctions, stop: Position) -> (Vec<Way>, 
         let length = network.chain(chain).length;
         let following = &network.chain(chain).following;
         if base + length < (reached + NEXT).min(REACH) && !following.is_empty() {
+            let forks = following.len() > 1;
             let on = |next: &ChainIndex| {
-                let via = if way.via.chain == stop.chain { Position::new(*next, 0.0) } else { way.via };
-                let way = Way { via, ..way.clone() };
-                Open { way, chain: *next, from: 0.0, base: base + length, reached }
+                let via = if is_whole && forks { Position::new(*next, 0.0) } else { way.via };
+                let (way, base) = (Way { via, ..way.clone() }, base + length);
+                Open { way, chain: *next, from: 0.0, base, reached, is_whole: is_whole && !forks }
             };
             open.extend(following.iter().map(on));
         } else {

@@ -17,14 +17,14 @@ mod timing;
 use std::collections::BTreeSet;
 
 use crate::chain::Position;
-use crate::junction::{Junctions, LightConflict, LightIndex, SignalPlan};
+use crate::junction::{Junctions, Light, LightConflict, LightIndex, Program, SignalPlan};
 use crate::network::Network;
-use conflicts::Conflicts;
+use conflicts::{Conflicts, Rivals};
 use flow_ratios::Flows;
 pub use flow_ratios::LaneFlows;
 use lanes::Lane;
 use stage::Stage;
-use timing::{Timed, webster};
+use timing::Timed;
 
 /// The traffic for which programs are made.
 #[derive(Clone, Copy)]
@@ -40,17 +40,87 @@ impl LightTraffic<'_> {
     const UNKNOWN: LightTraffic<'static> = LightTraffic { flow: &|_| 0.05, saturation: &|_| 0.5 };
 }
 
-/// The junction of lights that conflict, with the stages of its program.
-struct Junction {
-    stages: Vec<Stage>,
-    /// Sum of the flow ratios of its stages.
-    flow_ratio: f64,
+/// The lights of a network, for which programs are made.
+pub struct Lights<'a> {
+    network: &'a Network,
+    junctions: &'a Junctions,
+    lanes: Vec<Lane>,
+    /// For each light the lanes before it, by number.
+    before: Vec<Vec<usize>>,
+    conflicts: Vec<LightConflict>,
+    rivals: Rivals,
+    /// The lights of each junction.
+    members: Vec<Vec<LightIndex>>,
+    /// Number of pairs of lights that were compared.
+    comparisons: u64,
+}
+
+impl<'a> Lights<'a> {
+    fn new(network: &'a Network, junctions: &'a Junctions) -> Lights<'a> {
+        let lanes = lanes::lanes(network, junctions);
+        let mut before = vec![Vec::new(); junctions.lights.len()];
+        lanes.iter().zip(0..).for_each(|(it, number)| before[it.light.at()].push(number));
+        let Conflicts { found: conflicts, comparisons } = conflicts::between(junctions, &lanes);
+        let rivals = conflicts::rivals(junctions.lights.len(), &conflicts);
+        let mut members = conflicts::junctions(&rivals.any);
+        members.retain(|it| it.len() > 1);
+        Lights { network, junctions, lanes, before, conflicts, rivals, members, comparisons }
+    }
+
+    /// Only lights that conflict with none of those that are `given` a program.
+    pub fn without(mut self, given: &BTreeSet<LightIndex>) -> Lights<'a> {
+        self.members.retain(|it| !it.iter().any(|light| given.contains(light)));
+        self
+    }
+
+    /// Whether none of them conflict.
+    pub fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+
+    /// Programs for this `traffic`.
+    pub fn programs(&self, traffic: &LightTraffic) -> Vec<SignalPlan> {
+        let stages = self.stages(traffic).into_iter().filter(|it| it.len() > 1);
+        offsets::coordinated(self, traffic, stages.map(Timed::by_webster).collect())
+    }
+
+    /// The largest sum of the critical flow ratios of a junction's stages, with programs made for `traffic`; 0 without
+    /// any. At 1 no cycle is long enough.
+    pub fn flow_ratio(&self, traffic: &LightTraffic) -> f64 {
+        let sums = self.stages(traffic).into_iter().map(|it| it.iter().map(|it| it.flow_ratio).sum());
+        sums.fold(0.0, f64::max)
+    }
+
+    /// The flows of each lane before a light, with the oncoming `traffic` that is green at the same time.
+    pub fn lane_flows(&self, traffic: &LightTraffic) -> Vec<LaneFlows> {
+        self.flows(traffic).at_lights(&self.rivals)
+    }
+
+    fn flows<'b>(&'b self, traffic: &'b LightTraffic) -> Flows<'b> {
+        Flows { junctions: self.junctions, traffic, lanes: &self.lanes, before: &self.before }
+    }
+
+    /// The stages of each junction.
+    fn stages(&self, traffic: &LightTraffic) -> Vec<Vec<Stage>> {
+        let flows = self.flows(traffic);
+        let stages = |members: &Vec<LightIndex>| {
+            let numbers = members.iter().flat_map(|it| &self.before[it.at()]);
+            let lanes: Vec<&Lane> = numbers.map(|it| &self.lanes[*it]).collect();
+            stages::best(&flows, &self.rivals, &approaches::approaches(&lanes))
+        };
+        self.members.iter().map(stages).collect()
+    }
 }
 
 impl Network {
+    /// Its lights.
+    pub fn lights(&self) -> Lights<'_> {
+        Lights::new(self, &self.junctions)
+    }
+
     /// Which traffic lights conflict with each other.
     pub fn light_conflicts(&self) -> Vec<LightConflict> {
-        conflicts::between(&self.junctions, &lanes::lanes(self, &self.junctions)).found
+        self.lights().conflicts
     }
 
     /// For each zone and each of its sides whether its drivers pass a light.
@@ -62,34 +132,21 @@ impl Network {
         is_lit
     }
 
-    /// Programs for this `traffic`, for the lights that have a made program and are not `given` another one.
-    pub fn made_signals(&self, traffic: &LightTraffic, given: &BTreeSet<LightIndex>) -> Vec<SignalPlan> {
-        plans(self, &self.junctions, traffic, given).0
-    }
-
-    /// The largest sum of the critical flow ratios of a junction's stages, with these programs made for `traffic`; 0
-    /// without any. At 1 no cycle is long enough.
-    pub fn flow_ratio(&self, traffic: &LightTraffic, given: &BTreeSet<LightIndex>) -> f64 {
-        let (junctions, _) = junctions(self, &self.junctions, traffic, given);
-        junctions.iter().map(|it| it.flow_ratio).fold(0.0, f64::max)
-    }
-
-    /// The flows of each lane before a light, with the oncoming `traffic` that is green at the same time.
-    pub fn lane_flows(&self, traffic: &LightTraffic) -> Vec<LaneFlows> {
-        let lanes = lanes::lanes(self, &self.junctions);
-        let found = conflicts::between(&self.junctions, &lanes).found;
-        let flows = Flows { junctions: &self.junctions, traffic, lanes: &lanes };
-        flows.at_lights(&conflicts::rivals(self.junctions.lights.len(), &found))
-    }
-
     /// The same network with lights that follow these plans.
     pub fn with_signals(mut self, plans: &[SignalPlan]) -> Network {
+        let given: BTreeSet<LightIndex> = plans.iter().flat_map(SignalPlan::lights).collect();
+        self.junctions.made.retain(|it| !it.lights().any(|light| given.contains(&light)));
         self.junctions.follow(plans);
         self
     }
 
     /// The same network, whose lights without a program follow these plans.
     pub fn with_made_signals(mut self, made: Vec<SignalPlan>) -> Network {
+        let lights: Vec<LightIndex> = self.junctions.made.iter().flat_map(SignalPlan::lights).collect();
+        for light in lights {
+            let Light { program, plan, .. } = &mut self.junctions.lights[light.at()];
+            (*program, *plan) = (Program::ALWAYS_GREEN, None);
+        }
         self.junctions.follow(&made);
         self.junctions.made = made;
         self
@@ -99,46 +156,6 @@ impl Network {
 /// Programs for lights without one, for traffic of which nothing is known. With them comes the number of pairs of
 /// lights that were compared.
 pub(crate) fn made_plans(network: &Network, junctions: &Junctions) -> (Vec<SignalPlan>, u64) {
-    plans(network, junctions, &LightTraffic::UNKNOWN, &BTreeSet::new())
-}
-
-fn plans(
-    network: &Network,
-    on: &Junctions,
-    traffic: &LightTraffic,
-    given: &BTreeSet<LightIndex>,
-) -> (Vec<SignalPlan>, u64) {
-    let (all, comparisons) = junctions(network, on, traffic, given);
-    let timed: Vec<Timed> = all.into_iter().map(|it| Timed::by_webster(it.stages)).collect();
-    (offsets::coordinated(network, on, traffic, timed), comparisons)
-}
-
-/// The junctions whose lights have no program, and the number of pairs of lights that were compared.
-fn junctions(
-    network: &Network,
-    on: &Junctions,
-    traffic: &LightTraffic,
-    given: &BTreeSet<LightIndex>,
-) -> (Vec<Junction>, u64) {
-    let lanes = lanes::lanes(network, on);
-    let Conflicts { found, comparisons } = conflicts::between(on, &lanes);
-    let flows = Flows { junctions: on, traffic, lanes: &lanes };
-    let rivals = conflicts::rivals(on.lights.len(), &found);
-    let mut junctions = Vec::new();
-    for members in conflicts::junctions(&rivals.any) {
-        if members.iter().any(|it| given.contains(it)) {
-            continue;
-        }
-        let approaches = approaches::approaches(&lanes, &members);
-        let best = stages::choices(&flows, &rivals, &approaches)
-            .into_iter()
-            .map(|stages| flows.measured(stages))
-            .min_by(|a, b| webster(a).total_cmp(&webster(b)));
-        if let Some(mut stages) = best.filter(|it| it.len() > 1) {
-            stages::extend(&rivals, &mut stages);
-            let flow_ratio = stages.iter().map(|it| it.flow_ratio).sum();
-            junctions.push(Junction { stages, flow_ratio });
-        }
-    }
-    (junctions, comparisons)
+    let lights = Lights::new(network, junctions);
+    (lights.programs(&LightTraffic::UNKNOWN), lights.comparisons)
 }

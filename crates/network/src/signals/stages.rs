@@ -11,6 +11,7 @@ use super::conflicts::Rivals;
 use super::flow_ratios::Flows;
 use super::lanes::Lane;
 use super::stage::Stage;
+use super::timing::webster;
 use crate::geometry::turn;
 use crate::junction::LightIndex;
 
@@ -23,26 +24,32 @@ const MOST_STAGES: usize = 4;
 const PROTECTED_FROM: [f64; 3] = [50_000.0, 90_000.0, 110_000.0];
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
+/// So many programs are compared at a time; of more only the best.
+const COMPARED: usize = 9;
+
 /// The lights of stages that follow each other.
 type Lights = Vec<Vec<LightIndex>>;
 
-/// The possible programs of a junction with these `approaches`.
-pub(super) fn choices(flows: &Flows, rivals: &Rivals, approaches: &[Approach]) -> Vec<Lights> {
-    let mut programs: Vec<Lights> = vec![Vec::new()];
+/// The best program of a junction with these `approaches`.
+pub(super) fn best(flows: &Flows, rivals: &Rivals, approaches: &[Approach]) -> Vec<Stage> {
+    let mut programs: Vec<Vec<Stage>> = vec![Vec::new()];
     for (first, second) in pairs(rivals, approaches) {
         let ways = match second {
             Some(second) => for_pair(flows, rivals, &approaches[first], &approaches[second]),
             None => vec![vec![approaches[first].lights.clone()]],
         };
-        let longer = |program: &Lights| -> Vec<Lights> {
+        let measured = |it: Lights| sound(rivals, it).into_iter().map(|it| flows.measured(it)).collect();
+        let ways: Vec<Vec<Stage>> = ways.into_iter().map(measured).collect();
+        let longer = |program: &Vec<Stage>| -> Vec<Vec<Stage>> {
             ways.iter().map(|it| [program.clone(), it.clone()].concat()).collect()
         };
         programs = programs.iter().flat_map(longer).collect();
+        programs.sort_by(|a, b| webster(a).total_cmp(&webster(b)));
+        programs.truncate(COMPARED);
     }
-    if programs.iter().any(|it| it.len() <= MOST_STAGES) {
-        programs.retain(|it| it.len() <= MOST_STAGES);
-    }
-    programs.into_iter().map(|it| sound(rivals, it)).collect()
+    let is_short = |it: &&Vec<Stage>| it.len() <= MOST_STAGES;
+    let best = programs.iter().find(is_short).or(programs.first()).cloned().unwrap_or_default();
+    extended(flows, rivals, best)
 }
 
 /// Each approach with the one that comes from the opposite direction, if there is one.
@@ -94,15 +101,11 @@ fn for_pair(flows: &Flows, rivals: &Rivals, one: &Approach, other: &Approach) ->
     ways
 }
 
-fn lanes<'a>(flows: &Flows<'a>, approach: &Approach) -> Vec<&'a Lane> {
-    approach.lanes.iter().map(|it| &flows.lanes[*it]).collect()
-}
-
 /// The lights of `approach` all of whose lanes lead only to turns across the `oncoming` traffic.
 fn turns(flows: &Flows, approach: &Approach, oncoming: &Approach) -> Vec<LightIndex> {
-    let (own, oncoming) = (lanes(flows, approach), lanes(flows, oncoming));
     let turn = |light: &&LightIndex| {
-        own.iter().filter(|it| it.light == **light).all(|it| flows.turns_across(it, &oncoming))
+        let mut own = approach.lanes.iter().filter(|it| it.light == **light);
+        own.all(|it| flows.turns_across(it, &oncoming.lanes))
     };
     approach.lights.iter().filter(turn).copied().collect()
 }
@@ -110,17 +113,15 @@ fn turns(flows: &Flows, approach: &Approach, oncoming: &Approach) -> Vec<LightIn
 /// Whether the turns with these lights of `approach` need protection from the `oncoming` traffic: there are two such
 /// lanes or more, or the product of the flows is large.
 fn needs_protection(flows: &Flows, approach: &Approach, oncoming: &Approach, turns: &[LightIndex]) -> bool {
-    let oncoming = lanes(flows, oncoming);
-    let turning: Vec<&Lane> =
-        lanes(flows, approach).into_iter().filter(|it| turns.contains(&it.light)).collect();
-    let of_lanes = turning.iter().map(|it| flows.across(it, &oncoming).map(|it| it * SECONDS_PER_HOUR));
+    let turning: Vec<&Lane> = approach.lanes.iter().copied().filter(|it| turns.contains(&it.light)).collect();
+    let of_lanes = turning.iter().map(|it| flows.across(it, &oncoming.lanes).map(|it| it * SECONDS_PER_HOUR));
     let product: f64 = of_lanes.map(|[across, oncoming]| across * oncoming).sum();
-    let limit = PROTECTED_FROM[oncoming.len().clamp(1, PROTECTED_FROM.len()) - 1];
+    let count = turning.iter().map(|it| flows.oncoming(it, &oncoming.lanes).len()).max().unwrap_or_default();
+    let limit = PROTECTED_FROM[count.clamp(1, PROTECTED_FROM.len()) - 1];
     turning.len() > 1 || product > limit
 }
 
-/// The same stages, in none of which a light excludes another: such a stage is divided. In each, every further light is
-/// green that conflicts with none of it.
+/// The same stages, in none of which a light excludes another: such a stage is divided.
 fn sound(rivals: &Rivals, stages: Lights) -> Lights {
     let mut divided: Lights = Vec::new();
     for stage in stages.into_iter().filter(|it| !it.is_empty()) {
@@ -136,15 +137,17 @@ fn sound(rivals: &Rivals, stages: Lights) -> Lights {
     divided
 }
 
-/// Adds to each stage every further light of the program that conflicts with none of it.
-pub(super) fn extend(rivals: &Rivals, stages: &mut [Stage]) {
+/// The same stages, in each of which every further light is green, too, that conflicts with none of it.
+fn extended(flows: &Flows, rivals: &Rivals, mut stages: Vec<Stage>) -> Vec<Stage> {
     let all: Vec<LightIndex> = stages.iter().flat_map(|it| it.lights.clone()).collect();
-    for stage in stages {
+    for stage in &mut stages {
         for light in &all {
             let meets = |it: &LightIndex| it == light || rivals.any[light.at()].contains(it);
             if !stage.lights.iter().any(meets) {
                 stage.lights.push(*light);
             }
         }
+        stage.all_red = flows.all_red(&stage.lights);
     }
+    stages
 }

@@ -5,7 +5,7 @@
 //! of the yellow.
 
 use super::stage::Stage;
-use crate::junction::{SignalPlan, Turn};
+use crate::junction::{LightIndex, SignalPlan, Turn};
 
 /// Length of yellow [s] (definitions of generated programs).
 const YELLOW: f64 = 3.0;
@@ -30,7 +30,8 @@ fn lost(stages: &[Stage]) -> f64 {
     stages.iter().map(|it| YELLOW + it.all_red).sum()
 }
 
-/// Webster's cycle [s], without bounds; infinite, and longer with more flow, if no cycle is long enough.
+/// Webster's cycle [s], without bounds. Where no cycle is long enough, it grows with the flow ratio, so that programs
+/// can be compared.
 pub(super) fn webster(stages: &[Stage]) -> f64 {
     /// Beyond this sum of flow ratios the cycle grows in proportion to it.
     const FULL: f64 = 0.95;
@@ -49,9 +50,9 @@ pub(super) struct Timed {
 }
 
 impl Timed {
-    /// Stages with Webster's cycle, in whole seconds.
+    /// Stages with Webster's cycle, in whole seconds, an even number of them: half of it is whole, too.
     pub(super) fn by_webster(stages: Vec<Stage>) -> Timed {
-        let cycle = webster(&stages).clamp(CYCLES.0, CYCLES.1).ceil();
+        let cycle = 2.0 * (0.5 * webster(&stages).clamp(CYCLES.0, CYCLES.1)).ceil();
         let mut timed = Timed { greens: vec![LEAST_GREEN; stages.len()], stages, offset: 0.0 };
         timed.stretch(cycle);
         timed
@@ -81,6 +82,26 @@ impl Timed {
         self.greens = ends.collect();
     }
 
+    /// When the green of a light begins, and how long it is [s]: the green of its stage with the largest flow ratio,
+    /// and those right before it, through which it stays green.
+    pub(super) fn green(&self, light: LightIndex) -> (f64, f64) {
+        let has = |stage: usize| self.stages[stage].lights.contains(&light);
+        let ratio = |stage: usize| self.stages[stage].flow_ratio;
+        let own = (0..self.stages.len()).filter(|it| has(*it));
+        let Some(core) = own.max_by(|a, b| ratio(*a).total_cmp(&ratio(*b)).then(b.cmp(a))) else {
+            return (self.offset, self.cycle());
+        };
+        let count = self.stages.len();
+        let earlier = (1..count).take_while(|it| has((core + count - it) % count)).count();
+        let before = (1..=earlier).map(|it| self.duration((core + count - it) % count)).sum::<f64>();
+        (self.start(core) - before, before + self.greens[core])
+    }
+
+    /// How long a stage takes, with its yellow and all-red [s].
+    fn duration(&self, stage: usize) -> f64 {
+        self.greens[stage] + YELLOW + self.stages[stage].all_red
+    }
+
     /// The shortest possible cycle [s].
     pub(super) fn shortest(&self) -> f64 {
         lost(&self.stages) + LEAST_GREEN * self.stages.len() as f64
@@ -92,9 +113,8 @@ impl Timed {
     }
 
     /// When the green of a stage begins [s].
-    pub(super) fn start(&self, stage: usize) -> f64 {
-        let before = self.stages[..stage].iter().zip(&self.greens);
-        self.offset + before.map(|(it, green)| green + YELLOW + it.all_red).sum::<f64>()
+    fn start(&self, stage: usize) -> f64 {
+        self.offset + (0..stage).map(|it| self.duration(it)).sum::<f64>()
     }
 
     pub(super) fn plan(self) -> SignalPlan {

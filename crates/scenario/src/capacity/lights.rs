@@ -36,7 +36,7 @@ pub(crate) fn with_traffic<T>(
 /// The equivalents for the flows of `assignment`, so many times as large that the first light is full.
 pub(super) fn equivalents(network: &Network, assignment: &Assignment, queues: &Queues) -> Equivalents {
     const HALVINGS: u32 = 30;
-    let lanes = with_traffic(network, assignment, queues, 1.0, |it| network.lane_flows(it));
+    let lanes = with_traffic(network, assignment, queues, 1.0, |it| network.lights().lane_flows(it));
     // The share of the time that each light gives.
     let share = |it: &LaneFlows| {
         let Position { chain, x } = it.line;

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use laneweave_network::{LightIndex, Network, SignalPlan};
+use laneweave_network::{LightIndex, Lights, Network, SignalPlan};
 use laneweave_sim::Assignment;
+use laneweave_study::units::SECONDS_PER_HOUR;
 
 use super::{MadeSignals, Scenario};
 use crate::capacity::{Queues, with_traffic};
@@ -30,7 +31,7 @@ impl MadeLights {
 
     /// Whether `network` has such lights.
     pub(super) fn are_on(&self, network: &Network) -> bool {
-        network.junctions.made.iter().any(|it| !it.lights().any(|light| self.given.contains(&light)))
+        !network.lights().without(&self.given).is_empty()
     }
 
     /// The same network with programs for `total` vehicles per second on the ways of `assignment`; `None`: for as many
@@ -42,35 +43,39 @@ impl MadeLights {
         queues: &Queues,
         total: Option<f64>,
     ) -> Arc<Network> {
-        if !self.are_on(network) || assignment.total <= 0.0 {
+        let lights = network.lights().without(&self.given);
+        if lights.is_empty() || assignment.total <= 0.0 {
             return Arc::clone(network);
         }
         let growth = match total {
             Some(total) => total / assignment.total,
-            None => self.growth(network, assignment, queues),
+            None => growth(&lights, network, assignment, queues),
         };
-        let made =
-            with_traffic(network, assignment, queues, growth, |it| network.made_signals(it, &self.given));
+        let made = with_traffic(network, assignment, queues, growth, |it| lights.programs(it));
         let made = match self.kind {
             MadeSignals::Fixed => made,
             MadeSignals::Actuated => made.into_iter().map(SignalPlan::actuated).collect(),
         };
         Arc::new(Network::clone(network).with_made_signals(made))
     }
+}
 
-    /// The growth of all flows with which the fullest junction is full. Equivalents grow with the flows, so it takes
-    /// some steps.
-    fn growth(&self, network: &Network, assignment: &Assignment, queues: &Queues) -> f64 {
-        const STEPS: usize = 6;
-        let mut growth = 1.0;
-        for _ in 0..STEPS {
-            let ratio =
-                with_traffic(network, assignment, queues, growth, |it| network.flow_ratio(it, &self.given));
-            if ratio <= 0.0 {
-                return growth;
-            }
-            growth *= FULL / ratio;
-        }
-        growth
+/// The growth of all flows with which the fullest junction is full.
+fn growth(lights: &Lights, network: &Network, assignment: &Assignment, queues: &Queues) -> f64 {
+    const DOUBLINGS: u32 = 40;
+    const HALVINGS: u32 = 8;
+    let is_full =
+        |growth: f64| with_traffic(network, assignment, queues, growth, |it| lights.flow_ratio(it)) > FULL;
+    // From one vehicle in an hour and origin on.
+    let (mut low, mut high) = (0.0, 1.0 / (SECONDS_PER_HOUR * assignment.total));
+    let mut doublings = 0;
+    while !is_full(high) && doublings < DOUBLINGS {
+        (low, high) = (high, 2.0 * high);
+        doublings += 1;
     }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_full(middle) { high = middle } else { low = middle }
+    }
+    low
 }

@@ -22,8 +22,8 @@ pub(super) struct Settling<'a> {
 }
 
 impl Settling<'_> {
-    /// The world that `build` makes on the network with the programs for its demand, and the basis of that demand: a
-    /// total, if the scenario leaves it open [veh/h]. It is that of the capacity, and none beside a recording.
+    /// The world that `build` makes on the network with the programs for its demand, and the basis of that demand. If
+    /// the scenario leaves it open, it is a share of the capacity, and none beside a recording.
     pub(super) fn settle(
         &self,
         network: &Arc<Network>,
@@ -42,7 +42,7 @@ impl Settling<'_> {
         let programmed = |total: Option<f64>| self.made.programmed(network, &assignment, self.queues, total);
         if !is_estimated {
             let total: f64 = origins.iter().map(|it| it.1).sum();
-            let network = programmed((total > 0.0).then_some(total / SECONDS_PER_HOUR));
+            let network = programmed((total > 0.0).then_some(assignment.total));
             return Ok((build(&network, is_open.then_some(0.0))?, Basis::Given));
         }
         let capacity = Capacity::of(&programmed(None), &assignment, &inner_places, self.queues);

@@ -276,7 +276,7 @@ fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64
 }
 
 /// Whether a driver at `speed` [m/s] can stop without hard braking for a place `at` metres ahead. It stops with room
-/// before the place; who comes slowly, with less.
+/// before the place; a slow driver needs less.
 fn stops_gently(speed: f64, at: f64) -> bool {
     /// The part of the way that is enough for a slow driver (ours).
     const SLOWLY: f64 = 0.25;

@@ -1,6 +1,5 @@
 //! Programs of lights: what they show when, and those that are made for lights without one.
 
-use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
 use laneweave_network::{
@@ -73,7 +72,7 @@ fn plans(network: &Network, flows: [f64; 4]) -> Vec<SignalPlan> {
         lane @ 0..4 => flows[lane as usize] / 3600.0,
         way => flows[way.max(8) as usize - 8] / 3600.0,
     };
-    network.made_signals(&LightTraffic { flow: &flow, saturation: &|_| 0.5 }, &BTreeSet::new())
+    network.lights().programs(&LightTraffic { flow: &flow, saturation: &|_| 0.5 })
 }
 
 /// The lights of each phase, in words.
@@ -123,7 +122,7 @@ fn cycle_and_greens_are_those_of_webster() {
         let [plan] = &plans(&network, [west, south, 0.5 * west, 0.1 * south])[..] else { panic!() };
         let ratios = [west, south].map(|it| it / 1800.0);
         let sum: f64 = ratios.iter().sum();
-        let cycle = ((1.5 * lost + 5.0) / (1.0 - sum)).clamp(40.0, 120.0).ceil();
+        let cycle = 2.0 * (0.5 * ((1.5 * lost + 5.0) / (1.0 - sum)).clamp(40.0, 120.0)).ceil();
         assert!((plan.cycle() - cycle).abs() < 1e-9, "{} s, not {cycle} s", plan.cycle());
         for (turn, ratio) in plan.turns.iter().zip(ratios) {
             assert_eq!((turn.yellow, turn.all_red), (3.0, 2.1));
@@ -199,8 +198,7 @@ fn along_a_street_a_platoon_meets_green_at_the_next_light() {
             0 | 1 | 4 | 5 => along / 3600.0,
             _ => 200.0 / 3600.0,
         };
-        let plans =
-            network.made_signals(&LightTraffic { flow: &flow, saturation: &|_| 0.5 }, &BTreeSet::new());
+        let plans = network.lights().programs(&LightTraffic { flow: &flow, saturation: &|_| 0.5 });
         assert_eq!(plans.len(), 2);
         let cycle = plans[0].cycle();
         assert!((plans[1].cycle() - cycle).abs() < 1e-9);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{DrivingSide, Lanelet, LightIndex, SignalPlan};
+use laneweave_network::{DrivingSide, Extension, Lanelet, LightIndex, SignalPlan};
 use laneweave_sim::Place;
 use serde_json::{Value, json};
 
@@ -174,20 +174,26 @@ fn signals(prepared: &Prepared) -> Rows {
     let name = |light: &LightIndex| junctions.lights[light.at()].id;
     let rows = |plan: &SignalPlan| -> Vec<Row> {
         let program = Row::Table { header: "[[signals]]", keys: vec![("offset_s", json!(plan.offset))] };
-        let phases = plan.turns.iter().map(|turn| Row::Table {
-            header: "[[signals.phases]]",
-            keys: vec![
-                ("green", turn.lights.iter().map(name).collect()),
-                ("green_s", json!(turn.green)),
-                ("yellow_s", json!(turn.yellow)),
-                ("all_red_s", json!(turn.all_red)),
-            ],
+        let phases = plan.turns.iter().map(|turn| {
+            let greens = match turn.extension {
+                None => vec![("green_s", json!(turn.green))],
+                Some(Extension { least, gap }) => vec![
+                    ("max_green_s", json!(turn.green)),
+                    ("min_green_s", json!(least)),
+                    ("gap_s", json!(gap)),
+                ],
+            };
+            let lights = ("green", turn.lights.iter().map(name).collect());
+            let pauses = [("yellow_s", json!(turn.yellow)), ("all_red_s", json!(turn.all_red))];
+            let keys = [lights].into_iter().chain(greens).chain(pauses).collect();
+            Row::Table { header: "[[signals.phases]]", keys }
         });
         std::iter::once(program).chain(phases).collect()
     };
     let all = &junctions.made;
     let note = match all.len() {
-        0 => "This map has no traffic lights.",
+        0 if junctions.lights.is_empty() => "This map has no traffic lights.",
+        0 => "No traffic light of this map has a generated program.",
         _ => "The generated programs of the traffic lights of this map:",
     };
     Rows {
