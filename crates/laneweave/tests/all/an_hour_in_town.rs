@@ -61,3 +61,17 @@ fn who_enters_a_junction_counts_on_those_beyond_to_drive_on() {
         assert!(world.counts().entered > 530, "{:?}", world.counts());
     }
 }
+
+#[test]
+fn who_finds_somebody_waiting_in_front_in_an_endless_stream_gets_its_turn_all_the_same() {
+    let Some(map) = data("cases/ring_exit.osm") else { return };
+    for seed in 1..=4 {
+        let mut scenario = Scenario::of_map(map.clone());
+        scenario.run.seed = seed;
+        scenario.demand.vehicles_per_hour = Some(1800.0);
+        let mut world = prepare(&scenario, &Origin::default()).expect("the map is sound").world;
+        (0..9000).for_each(|_| world.step());
+        let counters = world.counters();
+        assert_eq!((counters.stuck, counters.collisions), (0, 0), "seed {seed}");
+    }
+}

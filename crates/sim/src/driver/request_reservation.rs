@@ -29,28 +29,25 @@ pub(crate) fn request_reservations(
     plan: &Plan,
     outbox: &mut Outbox,
 ) {
-    let Outbox { returns, reservation_requests, .. } = outbox;
-    for (index, from) in returns.drain(..) {
-        let motion = &scene.motions(chain)[index as usize];
-        let what = RequestKind::Revoke(from);
-        reservation_requests.push(ReservationRequest {
-            since: clock.step,
-            id: motion.id,
-            chain,
-            x: motion.x,
-            what,
-        });
-    }
+    revoke(scene, clock, chain, outbox);
     // A driver who waits at a light has nothing to request, unless it has waited too long.
     let has_to_ask = |it: &&Waiting| !it.is_held || clock.since(it.since) > STARVES;
     for waiting in plan.waiting.iter().filter(has_to_ask) {
         let spot = Spot { chain, index: waiting.index as usize };
         let motion = scene.motion(spot);
         let applicant = Applicant::at(scene, spot);
-        if !surveyed(scene, &applicant, &mut outbox.survey) {
+        let is_held = |light, at| !lets_go(scene, light, at, applicant.speed);
+        if !survey_at(scene, &applicant, is_held, &mut outbox.survey) {
             continue;
         }
         let asking = Asking::of(&applicant, waiting.since, clock);
+        if !are_led_on(scene, &applicant, &outbox.survey) {
+            // In an endless stream somebody always waits in front. Long after its patience the driver goes first.
+            if asking.waited > STARVES + applicant.style.yielding.patience {
+                outbox.priorities.extend(turns(scene, &applicant, &outbox.survey.holds, asking.priority));
+            }
+            continue;
+        }
         match may_pass(scene, &applicant, &outbox.survey, asking) {
             Ok(()) => outbox.reservation_requests.push(ReservationRequest {
                 since: waiting.since,
@@ -84,6 +81,17 @@ pub(crate) fn request_reservations(
             Err(PassHindrance::Light | PassHindrance::Sign | PassHindrance::Blocked) => {}
         }
     }
+}
+
+/// Adds the requests of the drivers of a lane who return reservations.
+fn revoke(scene: &Scene, clock: Clock, chain: ChainIndex, outbox: &mut Outbox) {
+    let Outbox { returns, reservation_requests, .. } = outbox;
+    let request = |(index, from): (u32, f64)| {
+        let motion = &scene.motions(chain)[index as usize];
+        let what = RequestKind::Revoke(from);
+        ReservationRequest { since: clock.step, id: motion.id, chain, x: motion.x, what }
+    };
+    reservation_requests.extend(returns.drain(..).map(request));
 }
 
 /// Whether a driver has waited at a light for long, and could not go during a green in the meantime.
