@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_6;
 
+use super::components::components;
 use super::lanes::Lane;
 use crate::geometry::{Point, turn};
 use crate::junction::LightIndex;
@@ -22,27 +23,15 @@ pub(super) struct Approach<'a> {
 
 /// The approaches of a junction with these `lanes`, in the order of their first lights.
 pub(super) fn approaches<'a>(lanes: &[&'a Lane]) -> Vec<Approach<'a>> {
-    let mut is_taken = vec![false; lanes.len()];
-    let mut found: Vec<Approach> = Vec::new();
-    for first in 0..lanes.len() {
-        let mut open = vec![first];
-        let mut group = Vec::new();
-        while let Some(at) = open.pop() {
-            if !std::mem::replace(&mut is_taken[at], true) {
-                group.push(at);
-                let is_joined = |it: &usize| !is_taken[*it] && are_joined(lanes[at], lanes[*it]);
-                open.extend((0..lanes.len()).filter(is_joined));
-            }
-        }
-        if !group.is_empty() {
-            group.sort_unstable();
-            let lanes: Vec<&Lane> = group.iter().map(|it| lanes[*it]).collect();
-            let mut lights: Vec<LightIndex> = lanes.iter().map(|it| it.light).collect();
-            lights.sort_unstable();
-            lights.dedup();
-            found.push(Approach { heading: lanes[0].heading, lights, lanes });
-        }
-    }
+    let near = |at: usize| (0..lanes.len()).filter(move |it| are_joined(lanes[at], lanes[*it]));
+    let approach = |group: Vec<usize>| {
+        let lanes: Vec<&Lane> = group.iter().map(|it| lanes[*it]).collect();
+        let mut lights: Vec<LightIndex> = lanes.iter().map(|it| it.light).collect();
+        lights.sort_unstable();
+        lights.dedup();
+        Approach { heading: lanes[0].heading, lights, lanes }
+    };
+    let mut found: Vec<Approach> = components(lanes.len(), near).into_iter().map(approach).collect();
     found.sort_by_key(|it| it.lights[0]);
     found
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::components::components;
 use super::lanes::Lane;
 use crate::junction::{Junctions, LightConflict, LightIndex, Precedence, ZoneIndex};
 
@@ -76,20 +77,7 @@ pub(super) fn rivals(count: usize, conflicts: &[LightConflict]) -> Rivals {
 
 /// The lights of each junction: those that conflict, directly or through others, in order.
 pub(super) fn junctions(rivals: &[BTreeSet<LightIndex>]) -> Vec<Vec<LightIndex>> {
-    let mut is_known = vec![false; rivals.len()];
-    let mut found = Vec::new();
-    for first in 0..rivals.len() {
-        let (mut members, mut open) = (Vec::new(), vec![LightIndex(first as u32)]);
-        while let Some(light) = open.pop() {
-            if !std::mem::replace(&mut is_known[light.at()], true) {
-                members.push(light);
-                open.extend(&rivals[light.at()]);
-            }
-        }
-        if !members.is_empty() {
-            members.sort_unstable();
-            found.push(members);
-        }
-    }
-    found
+    let found = components(rivals.len(), |light| rivals[light].iter().map(|it| it.at()));
+    let lights = |members: Vec<usize>| members.into_iter().map(|it| LightIndex(it as u32)).collect();
+    found.into_iter().map(lights).collect()
 }

@@ -2,8 +2,7 @@
 //!
 //! A vehicle that turns across oncoming traffic takes a gap in it. It counts as the number of vehicles that could leave
 //! in that time (the through-car equivalents of the Highway Capacity Manual; here from gap acceptance, after Siegloch,
-//! 1973).
-//! Before the first gap, the oncoming queue has to pass. Two such vehicles leave in each cycle when green ends.
+//! 1973). Before the first gap, the oncoming queue has to pass. Two such vehicles leave in each cycle when green ends.
 
 use std::collections::BTreeMap;
 

@@ -6,6 +6,7 @@
 //! follow Webster (1958; `timing.rs`), and the offsets of neighbours let platoons pass (`offsets.rs`).
 
 mod approaches;
+mod components;
 mod conflicts;
 mod flow_ratios;
 mod lanes;

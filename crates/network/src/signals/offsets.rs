@@ -9,6 +9,7 @@
 use std::collections::{BTreeMap, BinaryHeap};
 use std::f64::consts::{FRAC_PI_4, PI};
 
+use super::components::components;
 use super::lanes::{Lane, Way};
 use super::timing::Timed;
 use super::{LightTraffic, Lights};
@@ -61,7 +62,8 @@ pub(super) fn coordinated(lights: &Lights, traffic: &LightTraffic, mut timed: Ve
         at[link.from].push(number);
         at[link.to].push(number);
     }
-    for group in groups(&links, &at) {
+    let near = |it: usize| at[it].iter().flat_map(|it| [links[*it].from, links[*it].to]);
+    for group in components(timed.len(), near).into_iter().filter(|it| it.len() > 1) {
         share_cycle(&mut timed, &group);
         place(&mut timed, &group, &links, &at);
     }
@@ -171,25 +173,6 @@ fn weigh(links: &mut [Link]) {
         let is_stronger = if is_equal { is_first } else { there > back };
         link.weight = link.flow * if is_stronger { 1.0 } else { WEAKER };
     }
-}
-
-/// Junctions that are linked, directly or through others; `at` are the numbers of the links of each.
-fn groups(links: &[Link], at: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let mut is_known = vec![false; at.len()];
-    let mut groups = Vec::new();
-    for first in 0..at.len() {
-        let (mut group, mut open) = (Vec::new(), vec![first]);
-        while let Some(junction) = open.pop() {
-            if !std::mem::replace(&mut is_known[junction], true) {
-                group.push(junction);
-                open.extend(at[junction].iter().flat_map(|it| [links[*it].from, links[*it].to]));
-            }
-        }
-        if group.len() > 1 {
-            groups.push(group);
-        }
-    }
-    groups
 }
 
 /// Gives a group one cycle: the longest of its junctions. Those for which half of it is enough have two in that time.

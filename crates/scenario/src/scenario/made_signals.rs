@@ -66,7 +66,7 @@ fn growth(lights: &Lights, network: &Network, assignment: &Assignment, queues: &
     const HALVINGS: u32 = 8;
     let is_full =
         |growth: f64| with_traffic(network, assignment, queues, growth, |it| lights.flow_ratio(it)) > FULL;
-    // From one vehicle in an hour and origin on.
+    // From one vehicle an hour on.
     let (mut low, mut high) = (0.0, 1.0 / (SECONDS_PER_HOUR * assignment.total));
     let mut doublings = 0;
     while !is_full(high) && doublings < DOUBLINGS {

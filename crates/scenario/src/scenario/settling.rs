@@ -59,7 +59,7 @@ pub(super) fn origins(world: &World, [from, until]: [f64; 2]) -> Vec<(Place, f64
 }
 
 /// The estimated capacity of the map of `world` for its demand between two times [s]. Lights without a program get one
-/// for that demand.
+/// for as much of it as they bear.
 pub(super) fn estimate(world: &World, measured: [f64; 2], queues: Queues, made: MadeLights) -> Estimate {
     // The world may learn of other routes before somebody asks.
     let assignment = world.assignment(measured);
