@@ -3,7 +3,7 @@
 
 use laneweave_maps::drawing::{Border, Crossing, Drawing, Edge, Lane, Paint, Surroundings};
 use laneweave_maps::{Rule, RuleKind};
-use laneweave_network::{DrivingSide, Point};
+use laneweave_network::{Classes, DrivingSide, Point};
 
 /// A drawing under construction.
 #[derive(Clone)]
@@ -64,9 +64,15 @@ impl Canvas {
         limit_kmh: f64,
     ) -> i64 {
         let id = self.drawing.lanes.len() as i64 + 1;
-        let lane = Lane { id, line: None, left, right, is_two_way: false, surroundings, limit_kmh };
+        let (classes, is_two_way) = (Classes::ALL, false);
+        let lane = Lane { id, line: None, left, right, classes, is_two_way, surroundings, limit_kmh };
         self.drawing.lanes.push(lane);
         id
+    }
+
+    /// Keeps a lane for some classes of vehicles.
+    pub(super) fn keep_for(&mut self, id: i64, classes: Classes) {
+        self.drawing.lanes[id as usize - 1].classes = classes;
     }
 
     /// Adds a rule for some lanes.

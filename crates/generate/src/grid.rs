@@ -8,7 +8,7 @@ use super::compass::Compass;
 use super::control::Control;
 use super::error::{GenerateError, check_count, check_range};
 use super::layout::{Junction, Kind, Layout, Place, Street, draw};
-use super::street::{Profile, pose};
+use super::street::{Profile, SHORTEST_WITH_BUS_LANES, pose};
 
 /// Maximum of junctions in a row.
 const MAXIMUM_JUNCTIONS: usize = 50;
@@ -34,6 +34,8 @@ pub struct Grid {
     pub speed_limit_kmh: f64,
     /// The control of each junction.
     pub control: Control,
+    /// Whether the slow one of several lanes is for buses, but not within 60 m of a junction.
+    pub bus_lanes: bool,
     /// On which side traffic drives. Left is the mirror image of right, with y negated.
     pub driving_side: DrivingSide,
 }
@@ -49,6 +51,7 @@ impl Default for Grid {
             block_length_m: 150.0,
             speed_limit_kmh: 50.0,
             control: Control::Signals,
+            bus_lanes: false,
             driving_side: DrivingSide::Right,
         }
     }
@@ -63,6 +66,8 @@ pub struct Arterial {
     pub block_length_m: f64,
     /// Speed limit [km/h].
     pub speed_limit_kmh: f64,
+    /// Whether the slow lanes of the main street are for buses, but not within 60 m of a junction.
+    pub bus_lanes: bool,
     /// On which side traffic drives. Left is the mirror image of right, with y negated.
     pub driving_side: DrivingSide,
 }
@@ -74,6 +79,7 @@ impl Default for Arterial {
             junctions: 5,
             block_length_m: 300.0,
             speed_limit_kmh: 50.0,
+            bus_lanes: false,
             driving_side: DrivingSide::Right,
         }
     }
@@ -87,14 +93,19 @@ pub fn grid(grid: &Grid) -> Result<Drawing, GenerateError> {
     check_count("rows", grid.rows, [1, MAXIMUM_JUNCTIONS])?;
     check_count("columns", grid.columns, [1, MAXIMUM_JUNCTIONS])?;
     check_count("lanes in a direction", grid.lanes, [1, MAXIMUM_LANES])?;
-    check_streets(grid.block_length_m, grid.speed_limit_kmh)?;
+    check_streets(grid.block_length_m, grid.speed_limit_kmh, grid.bus_lanes)?;
+    if grid.bus_lanes {
+        check_count("lanes in a direction, one of them for buses", grid.lanes, [2, MAXIMUM_LANES])?;
+    }
+    let has_bus_lanes = grid.bus_lanes;
+    let profile = Profile { has_bus_lanes, ..Profile::street(grid.lanes, grid.lanes, grid.speed_limit_kmh) };
     let raster = Raster {
         rows: grid.rows,
         columns: grid.columns,
         block_length: grid.block_length_m,
         control: grid.control,
-        main: Profile::street(grid.lanes, grid.lanes, grid.speed_limit_kmh),
-        cross: Profile::street(grid.lanes, grid.lanes, grid.speed_limit_kmh),
+        main: profile,
+        cross: profile,
     };
     Ok(raster.draw(grid.driving_side))
 }
@@ -105,20 +116,27 @@ pub fn grid(grid: &Grid) -> Result<Drawing, GenerateError> {
 /// If a number is out of range.
 pub fn arterial(arterial: &Arterial) -> Result<Drawing, GenerateError> {
     check_count("junctions", arterial.junctions, [1, MAXIMUM_JUNCTIONS])?;
-    check_streets(arterial.block_length_m, arterial.speed_limit_kmh)?;
+    check_streets(arterial.block_length_m, arterial.speed_limit_kmh, arterial.bus_lanes)?;
     let raster = Raster {
         rows: 1,
         columns: arterial.junctions,
         block_length: arterial.block_length_m,
         control: Control::Signals,
-        main: Profile::street(2, 2, arterial.speed_limit_kmh),
+        main: Profile {
+            has_bus_lanes: arterial.bus_lanes,
+            ..Profile::street(2, 2, arterial.speed_limit_kmh)
+        },
         cross: Profile::street(1, 1, arterial.speed_limit_kmh),
     };
     Ok(raster.draw(arterial.driving_side))
 }
 
-fn check_streets(block_length: f64, speed_limit: f64) -> Result<(), GenerateError> {
+fn check_streets(block_length: f64, speed_limit: f64, has_bus_lanes: bool) -> Result<(), GenerateError> {
     check_range("a block length", block_length, "m", BLOCK_LENGTHS)?;
+    if has_bus_lanes {
+        let lengths = [SHORTEST_WITH_BUS_LANES, BLOCK_LENGTHS[1]];
+        check_range("a block length with bus lanes", block_length, "m", lengths)?;
+    }
     check_range("a speed limit", speed_limit, "km/h", SPEED_LIMITS)
 }
 

@@ -1,7 +1,7 @@
 //! Streets: lanes along a path and against it, cut into lanelets.
 
 use laneweave_maps::drawing::{Crossing, Edge, Surroundings};
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Classes, Point, Pose};
 
 use super::canvas::Canvas;
 use super::path::Path;
@@ -10,6 +10,10 @@ use super::path::Path;
 pub(super) const LANE_WIDTH: f64 = 3.25;
 /// Length without lane changes before a junction [m]. Ours.
 pub(super) const SOLID: f64 = 30.0;
+/// A bus lane keeps so far from junctions, where others turn from its lane and into it [m]. Ours.
+const BUS_LANE_ENDS: f64 = 60.0;
+/// The shortest street between two junctions that has room for bus lanes [m].
+pub(super) const SHORTEST_WITH_BUS_LANES: f64 = 200.0;
 /// Approximate length of lanelets elsewhere [m].
 const LANELET: f64 = 50.0;
 /// Distance between points on slopes [m].
@@ -30,6 +34,8 @@ pub(super) struct Profile {
     pub(super) lane_width: f64,
     /// Length without lane changes before a junction [m].
     pub(super) solid: f64,
+    /// Whether the slow one of several lanes is for buses, but not near junctions.
+    pub(super) has_bus_lanes: bool,
     /// Height of its middle above its ends [m].
     pub(super) rise: f64,
     pub(super) surroundings: Surroundings,
@@ -45,6 +51,7 @@ impl Profile {
             left_of_path: 0,
             lane_width: LANE_WIDTH,
             solid: SOLID,
+            has_bus_lanes: false,
             rise: 0.0,
             surroundings: Surroundings::Town,
             limit_kmh,
@@ -59,6 +66,19 @@ impl Profile {
     /// Offset of a line to the left of the path [m]; lines count from the left.
     fn offset(&self, line: usize) -> f64 {
         ((self.against + self.left_of_path) as f64 - line as f64) * self.lane_width
+    }
+
+    /// Where a street of this length between `ends` has bus lanes between two stations [m].
+    fn bus_lanes(&self, [from, to]: [f64; 2], length: f64, ends: &[End; 2]) -> BusLanes {
+        let left = |before: f64, end: &End| if *end == End::Junction { before } else { f64::INFINITY };
+        let [to_first, to_last] = [left(from, &ends[0]), left(length - to, &ends[1])];
+        let is_one = |lanes: usize, behind: f64, ahead: f64| {
+            self.has_bus_lanes && lanes > 1 && behind.min(ahead) >= BUS_LANE_ENDS
+        };
+        BusLanes {
+            along: is_one(self.along, to_first, to_last),
+            against: is_one(self.against, to_last, to_first),
+        }
     }
 
     /// Height of a street of this length at `station` [m]: it is steepest halfway up.
@@ -116,7 +136,8 @@ pub(super) fn street(canvas: &mut Canvas, path: &Path, profile: &Profile, ends: 
             along: is_last && ends[1] == End::Junction,
             against: is_first && ends[0] == End::Junction,
         };
-        let [begin, end] = draft.piece(stations, [&row, &next], solid);
+        let buses = profile.bus_lanes(stations, path.length(), &ends);
+        let [begin, end] = draft.piece(stations, [&row, &next], solid, buses);
         if is_first {
             mouths[0] = begin;
         }
@@ -151,6 +172,13 @@ fn shape(path: &Path, profile: &Profile) -> Vec<f64> {
     stations
 }
 
+/// The directions in which the slow lane is for buses.
+#[derive(Clone, Copy)]
+struct BusLanes {
+    along: bool,
+    against: bool,
+}
+
 /// The directions in which lane changes are forbidden.
 #[derive(Clone, Copy)]
 struct Solid {
@@ -181,7 +209,13 @@ impl Draft<'_> {
     }
 
     /// Draws the lanelets between two rows of points, and returns the end of the street there.
-    fn piece(&mut self, [from, to]: [f64; 2], rows: [&Vec<u32>; 2], solid: Solid) -> [Mouth; 2] {
+    fn piece(
+        &mut self,
+        [from, to]: [f64; 2],
+        rows: [&Vec<u32>; 2],
+        solid: Solid,
+        buses: BusLanes,
+    ) -> [Mouth; 2] {
         // A point too near to the next one would be a kink.
         const APART: f64 = 1.0;
         let between = |it: &&f64| **it > from + APART && **it < to - APART;
@@ -202,6 +236,10 @@ impl Draft<'_> {
         let mut lane = |[left, right]: [usize; 2], reversed: bool| {
             let edges = [left, right].map(|it| Edge { border: borders[it], reversed });
             let lanelet = self.canvas.lane(edges, surroundings, limit_kmh);
+            let is_slow = if reversed { right == 0 } else { right == lines - 1 };
+            if is_slow && (if reversed { buses.against } else { buses.along }) {
+                self.canvas.keep_for(lanelet, Classes::BUS_LANE);
+            }
             let [first, last] = rows.map(|row| LaneEnd { lanelet, left: row[left], right: row[right] });
             let [begin, end] = &mut mouths;
             if reversed {

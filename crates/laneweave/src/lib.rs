@@ -64,9 +64,9 @@ pub mod recordings {
 /// Scenarios as plain data, and what they are read from.
 pub mod scenario {
     pub use laneweave_scenario::scenario::{
-        Basis, Demand, DrivingSide, External, Guidance, Headways, Law, MadeSignals, MapOptions, Obstacle,
-        OdRow, Origin, Output, Replay, Run, Scenario, Signal, SignalPhase, SumoFile, TableFormat, Turns,
-        VehiclesPerHour, driven, mixture, open_map, read_map,
+        Basis, Demand, DrivingSide, External, Guidance, Headways, Law, Line, MadeSignals, MapOptions,
+        Obstacle, OdRow, Origin, Output, Replay, Run, Scenario, Signal, SignalPhase, Stop, SumoFile,
+        TableFormat, Turns, VehiclesPerHour, driven, mixture, open_map, read_map,
     };
 }
 

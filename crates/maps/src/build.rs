@@ -31,7 +31,7 @@ impl Drawing {
                     let limit = lane.limit_kmh / KMH_PER_MPS;
                     let is_in_town = lane.surroundings == Surroundings::Town;
                     let alone = Lanelet::alone(lane.id, [left, right, centre], limit);
-                    lanelets.push(Lanelet { is_in_town, ..alone });
+                    lanelets.push(Lanelet { is_in_town, classes: lane.classes, ..alone });
                 }
                 Err(flaw) => problems.push(Problem {
                     element: format!("lanelet {}", lane.id),

@@ -1,6 +1,6 @@
 //! A map as it is drawn: points, borders through them, and lanes between borders.
 
-use laneweave_network::{DrivingSide, Point, Polygon, Polyline};
+use laneweave_network::{Classes, DrivingSide, Point, Polygon, Polyline};
 
 use crate::rule::Rule;
 
@@ -91,6 +91,8 @@ pub struct Lane {
     pub left: Edge,
     /// Its right side.
     pub right: Edge,
+    /// Who may use it.
+    pub classes: Classes,
     /// It may be used against its direction, too.
     pub is_two_way: bool,
     /// Its surroundings.

@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
 use hashbrown::HashMap;
-use laneweave_network::Network;
+use laneweave_network::{Class, Lanelet, Network};
 
 use crate::graph::{Graph, Node, NodeIndex};
 use crate::map::Map;
@@ -69,7 +69,7 @@ const CHANGE: f64 = 1e-3;
 /// Partial routes after which the search gives up.
 const MOST_PARTIAL: usize = 200_000;
 
-/// The sensible routes from `from` to `to`, the fastest first.
+/// The sensible routes of cars from `from` to `to`, the fastest first.
 pub fn routes(map: &Map, from: NodeIndex, to: NodeIndex, sense: Sense) -> Vec<Route> {
     let search = Search::new(map, to);
     if !search.remaining[from.at()].is_finite() {
@@ -140,7 +140,7 @@ impl Ord for Partial {
 
 struct Search<'a> {
     graph: &'a Graph,
-    /// For each node its travel time [s], and its length [m].
+    /// For each node its travel time by car [s], and its length [m].
     times: Vec<f64>,
     lengths: Vec<f64>,
     /// For each node its section.
@@ -155,8 +155,11 @@ impl<'a> Search<'a> {
         let Map { graph, network, .. } = map;
         let lanelet = |network: &'a Network, it: &Node| &network.lanelets[it.lanelet.at()];
         let lengths: Vec<f64> = graph.nodes.iter().map(|it| lanelet(network, it).length()).collect();
-        let limits = graph.nodes.iter().map(|it| lanelet(network, it).speed_limit);
-        let times: Vec<f64> = lengths.iter().zip(limits).map(|(length, limit)| length / limit).collect();
+        // No car ever gets over a lanelet that is not for cars.
+        let time = |it: &Lanelet| {
+            if it.classes.has(Class::Car) { it.length() / it.speed_limit } else { f64::INFINITY }
+        };
+        let times: Vec<f64> = graph.nodes.iter().map(|it| time(lanelet(network, it))).collect();
         let remaining = remaining(graph, &times, goal);
         Search {
             graph,

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::bend::note_slow_places;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
+use crate::class::Classes;
 use crate::gate::{MINIMUM_GATE_LENGTH, gates, is_end_of_a_road, lane_drops};
 use crate::junction::Junctions;
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
@@ -65,9 +66,7 @@ impl Network {
         let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty(), is_long);
         let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty(), is_end);
         let lane_drops = lane_drops(&chains, &exits);
-        for index in &lane_drops {
-            chains[index.at()].is_lane_drop = true;
-        }
+        note_ends(&mut chains, &lane_drops);
         note_slow_places(&mut chains);
         note_open(&mut chains, &lanelets, [&entrances, &exits]);
         let start =
@@ -101,10 +100,14 @@ fn previous(lanelets: &[Lanelet]) -> Vec<Vec<LaneletIndex>> {
     previous
 }
 
-/// Maximal fork-free runs, cut to the lengths above.
+/// Maximal fork-free runs for the same classes, cut to the lengths above.
 fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<LaneletIndex>> {
     let only_following = |it: LaneletIndex| match lanelets[it.at()].following[..] {
-        [next] if previous[next.at()].len() == 1 => Some(next),
+        [next]
+            if previous[next.at()].len() == 1 && lanelets[next.at()].classes == lanelets[it.at()].classes =>
+        {
+            Some(next)
+        }
         _ => None,
     };
     let continues_another =
@@ -135,6 +138,19 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
     // In the order of the map, so that lanes side by side are stored side by side.
     runs.sort_by_key(|run| run[0]);
     runs
+}
+
+/// Notes the classes for which chains end: all, if the chain is one of `lane_drops`; or those that may use it, but
+/// nothing that follows.
+fn note_ends(chains: &mut [Chain], lane_drops: &[ChainIndex]) {
+    for index in 0..chains.len() {
+        let Chain { following, classes, .. } = &chains[index];
+        let may_follow = following.iter().map(|it| chains[it.at()].classes).reduce(Classes::and);
+        let ends_for = may_follow.map_or(Classes::NONE, |it| classes.without(it));
+        let is_restricted = *classes != Classes::ALL || !ends_for.is_empty();
+        (chains[index].ends_for, chains[index].is_restricted) = (ends_for, is_restricted);
+    }
+    lane_drops.iter().for_each(|it| chains[it.at()].ends_for = Classes::ALL);
 }
 
 /// For each lanelet its chain and its number there.

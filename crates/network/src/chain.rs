@@ -1,5 +1,6 @@
 //! Chains: maximal fork-free runs of lanelets, the lanes of the simulation.
 
+use crate::class::{Class, Classes};
 use crate::geometry::Polyline;
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
 use serde::{Deserialize, Serialize};
@@ -33,7 +34,8 @@ impl Position {
     }
 }
 
-/// A run of lanelets without a fork or a merge. Stations run along its centre line from its start [m].
+/// A run of lanelets without a fork or a merge, for the same classes of vehicles. Stations run along its centre line
+/// from its start [m].
 ///
 /// Fields that drivers read in every step come first in memory, on one cache line: towns have thousands of chains.
 #[derive(Clone, Debug)]
@@ -46,10 +48,14 @@ pub struct Chain {
     pub fork_clearance: f64,
     /// Chains that continue this one.
     pub following: Vec<ChainIndex>,
-    /// It ends beside a continuing chain: a vehicle on it has to change lanes.
-    pub is_lane_drop: bool,
-    /// Somewhere it is too narrow for some vehicles: for them it begins later or ends earlier than drawn.
-    pub is_narrow: bool,
+    /// Who may use it.
+    pub classes: Classes,
+    /// The classes for which it ends beside a continuing chain: they have to change lanes. All of them, if it is drawn
+    /// so; or those that may not use what follows.
+    pub ends_for: Classes,
+    /// Somewhere some vehicles may not use it; or it is too narrow for them, so that for them it begins later or ends
+    /// earlier than drawn.
+    pub is_restricted: bool,
     /// It has bends, or a speed limit below the one before it.
     pub has_slow_places: bool,
     /// From its end to the next bend or lower speed limit on any route [m]; infinite if there is none near.
@@ -149,7 +155,7 @@ impl Beside {
 
 impl Chain {
     /// Wide enough for all vehicles over its whole length.
-    pub(crate) const WIDE: [[f64; 2]; 2] = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+    pub const WIDE: [[f64; 2]; 2] = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
 
     /// Stretches of lanelets are joined to one as long as no station moves by more than this [m].
     const STRETCH_ERROR: f64 = 0.02;
@@ -194,10 +200,15 @@ impl Chain {
         (from..=until).contains(&station)
     }
 
-    /// Whether one may change lanes to it at `station` [m] with a car, or with a long vehicle.
+    /// Whether a vehicle of `class` may change lanes to it at `station` [m].
     #[inline]
-    pub fn takes(&self, station: f64, is_long: bool) -> bool {
-        !self.is_narrow || self.is_open(station, is_long)
+    pub fn takes(&self, station: f64, class: Class) -> bool {
+        !self.is_restricted || (self.classes.has(class) && self.is_open(station, class.is_long()))
+    }
+
+    /// Whether it ends, as drawn, beside a continuing chain.
+    pub fn is_lane_drop(&self) -> bool {
+        self.ends_for == Classes::ALL
     }
 
     /// Last station that a car, or a long vehicle, can use [m]: its end, or where it gets too narrow.
@@ -251,6 +262,7 @@ impl Chain {
         }
         Chain {
             length: centre.length(),
+            classes: all[lanelets[0].at()].classes,
             lanelets,
             starts,
             centre,
@@ -260,8 +272,8 @@ impl Chain {
             previous: Vec::new(),
             left: Vec::new(),
             right: Vec::new(),
-            is_lane_drop: false,
-            is_narrow: false,
+            ends_for: Classes::NONE,
+            is_restricted: false,
             has_slow_places: false,
             slow_beyond: f64::INFINITY,
             bends: Vec::new(),

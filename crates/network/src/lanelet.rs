@@ -1,5 +1,6 @@
 //! One lanelet: a piece of lane between two borders, and what lies around it.
 
+use crate::class::Classes;
 use crate::geometry::Polyline;
 use serde::{Deserialize, Serialize};
 
@@ -92,6 +93,8 @@ pub struct Lanelet {
     pub centre: Polyline,
     /// Speed limit [m/s].
     pub speed_limit: f64,
+    /// Who may use it.
+    pub classes: Classes,
     /// It lies in a built-up area and is no motorway.
     pub is_in_town: bool,
     /// Lanelets that continue it.
@@ -115,6 +118,7 @@ impl Lanelet {
             right_border,
             centre,
             speed_limit,
+            classes: Classes::ALL,
             is_in_town: false,
             following: Vec::new(),
             left: None,

@@ -1,6 +1,7 @@
 //! The road network: chains, what lies beside and beyond them, entrances and exits, junctions.
 
 use crate::chain::{Beside, Chain, ChainIndex, Position};
+use crate::class::Class;
 use crate::gate::Gate;
 use crate::junction::Junctions;
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex};
@@ -45,15 +46,18 @@ impl Network {
         if is_free_to_choose { self.law.lane_use_in_town } else { self.law.lane_use }
     }
 
-    /// First and last station of a `stretch` of `chain` at which both lanes are wide enough for a change with a car,
-    /// or with a long vehicle [m]; the first is beyond the last if there is none.
-    pub fn window(&self, chain: &Chain, stretch: &Beside, is_long: bool) -> [f64; 2] {
+    /// First and last station of a `stretch` of `chain` at which a vehicle of `class` may change lanes, and both lanes
+    /// are wide enough for it [m]; the first is beyond the last if there is none.
+    pub fn window(&self, chain: &Chain, stretch: &Beside, class: Class) -> [f64; 2] {
         let there = self.chain(stretch.chain);
-        if !(chain.is_narrow || there.is_narrow) {
+        if !(chain.is_restricted || there.is_restricted) {
             return [stretch.start, stretch.end];
         }
-        let [from, until] = there.open[usize::from(is_long)].map(|it| stretch.back(it));
-        let [begins, ends] = chain.open[usize::from(is_long)];
+        if !there.classes.has(class) {
+            return [f64::INFINITY, f64::NEG_INFINITY];
+        }
+        let [from, until] = there.open[usize::from(class.is_long())].map(|it| stretch.back(it));
+        let [begins, ends] = chain.open[usize::from(class.is_long())];
         [stretch.start.max(from).max(begins), stretch.end.min(until).min(ends)]
     }
 

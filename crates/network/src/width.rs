@@ -2,11 +2,12 @@
 //! as wide as the vehicle.
 
 use crate::chain::{Chain, ChainIndex};
+use crate::class::Class;
 use crate::gate::Gate;
 use crate::lanelet::Lanelet;
 
-/// Width of a car, and of the widest long vehicle [m]; ours, of usual European vehicles.
-const BODIES: [f64; 2] = [1.8, 2.55];
+/// Width of a car, and of the widest long vehicle [m].
+const BODIES: [f64; 2] = [Class::Car.body().width, Class::Bus.body().width];
 /// Widths are compared at stations this far apart [m].
 const STEP: f64 = 0.5;
 /// Every vehicle that can reach a lane that ends can leave it. This is the minimum length of road with lane changes,
@@ -40,7 +41,7 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
         let [from, until] = chain.open[1];
         let through = widths.iter().filter(|(station, _)| (from..=until).contains(station));
         chain.is_tight_for_long = through.map(|it| it.1).fold(f64::INFINITY, f64::min) < BODIES[1];
-        chain.is_narrow = chain.is_tight_for_long || chain.open != Chain::WIDE;
+        chain.is_restricted |= chain.is_tight_for_long || chain.open != Chain::WIDE;
     }
 }
 

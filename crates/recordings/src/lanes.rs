@@ -122,19 +122,7 @@ mod tests {
             let points = [(0.0, -aside), (100.0 + aside, -aside), (100.0 + aside, 50.0)];
             Polyline::new(points.map(|(x, y)| Point::new(x, y, 0.0))).unwrap()
         };
-        Lanelet {
-            id: 1,
-            left_border: line(-2.0),
-            right_border: line(2.0),
-            centre: line(0.0),
-            is_in_town: false,
-            speed_limit: 20.0,
-            following: Vec::new(),
-            left: None,
-            right: None,
-            adjacent_left: None,
-            adjacent_right: None,
-        }
+        Lanelet::alone(1, [line(-2.0), line(2.0), line(0.0)], 20.0)
     }
 
     #[test]

@@ -13,4 +13,4 @@ pub mod report;
 mod seen;
 mod whole_file;
 
-pub use outcome::{About, Ending};
+pub use outcome::{About, Ending, LineServed};

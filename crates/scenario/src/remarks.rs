@@ -5,8 +5,8 @@ use std::fmt;
 
 use laneweave_maps::Map;
 use laneweave_models::Style;
-use laneweave_network::{Beside, Chain, ChainIndex, Lanelet, Network, Polyline, Position, Side};
-use laneweave_sim::{Place, Places};
+use laneweave_network::{Beside, Chain, ChainIndex, Classes, Lanelet, Network, Polyline, Position, Side};
+use laneweave_sim::{Fleet, Place, Places};
 use laneweave_study::units::KMH_PER_MPS;
 use serde::Serialize;
 
@@ -167,7 +167,7 @@ fn shared_at_the_edge(network: &Network) -> Option<Remark> {
 /// Lanes that are too narrow for cars or for long vehicles.
 fn narrow_lanes(network: &Network) -> Option<Remark> {
     let first_id = |chain: &Chain| network.lanelets[chain.lanelets[0].at()].id;
-    let narrow = || network.chains.iter().filter(|it| it.is_narrow);
+    let narrow = || network.chains.iter().filter(|it| it.is_tight_for_long || it.open != Chain::WIDE);
     let is_closed = |it: &&Chain| it.open[0][0] > it.open[0][1];
     let closed: Vec<i64> = narrow().filter(is_closed).map(first_id).collect();
     let ends =
@@ -191,6 +191,21 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
         format!("of {} lanes {}", network.chains.len(), told.join("; ")),
         "correct their borders if this is not intended",
     )
+}
+
+/// Lanes that are for classes of which `fleet` has none.
+pub(crate) fn unused_lanes(network: &Network, fleet: Fleet) -> Option<Remark> {
+    let driven: Classes = fleet.shares().into_iter().filter(|it| it.1 > 0.0).map(|it| it.0).collect();
+    let is_unused = |it: &&Lanelet| it.classes.iter().all(|class| !driven.has(class));
+    let unused: Vec<&Lanelet> = network.lanelets.iter().filter(is_unused).collect();
+    let first = unused.first()?;
+    let what = format!(
+        "lanelet {}{} is for {} only, and the demand has none of these: nobody drives there",
+        first.id,
+        and_more(unused.len() - 1),
+        first.classes.names()
+    );
+    remark(what, "give the demand a share of them, such as demand.buses, or a line of buses")
 }
 
 /// Legal limits that replace missing ones.

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use laneweave::maps::{Contents, Map, Marking, MarkingPaint};
 use laneweave::network::{
-    Chain, ChainIndex, DrivingSide, Gate, InPlan, Lanelet, LaneletIndex, Light, Network, Point, Polyline,
-    Sign,
+    Chain, ChainIndex, Classes, DrivingSide, Gate, InPlan, Lanelet, LaneletIndex, Light, Network, Point,
+    Polyline, Sign,
 };
 use laneweave::{Side, network};
 use serde::Serialize;
@@ -44,6 +44,8 @@ pub(crate) struct LaneletLines {
     centre: Line,
     limit_kmh: f64,
     is_conflict: bool,
+    /// The names of the classes that may use it, if these are not all.
+    pub(crate) only_for: Option<String>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -160,6 +162,7 @@ impl Frame {
             centre: self.line(it.centre.points()),
             limit_kmh: (it.speed_limit * 36.0).round() / 10.0,
             is_conflict,
+            only_for: (it.classes != Classes::ALL).then(|| it.classes.names()),
         }
     }
 

@@ -121,8 +121,8 @@ impl Watch<'_> {
         let chain = network.chain(lane);
         let left = chain.length - x;
         match chain.following[..] {
-            _ if chain.is_lane_drop => left < reach,
-            [only] if network.chain(only).is_lane_drop => left + network.chain(only).length < reach,
+            _ if chain.is_lane_drop() => left < reach,
+            [only] if network.chain(only).is_lane_drop() => left + network.chain(only).length < reach,
             _ => false,
         }
     }

@@ -103,6 +103,9 @@ pub(crate) struct GridArguments {
     /// Control of the junctions; with priority, the streets that run east and west have priority.
     #[arg(long, value_enum, default_value_t = Order::Signals)]
     control: Order,
+    /// Keep the slow one of several lanes for buses, but not within 60 m of junctions; blocks are 200 m or longer.
+    #[arg(long)]
+    bus_lanes: bool,
     #[command(flatten)]
     plain: Plain,
 }
@@ -118,6 +121,9 @@ pub(crate) struct ArterialArguments {
     /// Speed limit [km/h], 5 to 130.
     #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true, value_parser = number)]
     speed_limit: f64,
+    /// Keep the slow lanes of the main street for buses, but not within 60 m of junctions; blocks are 200 m or longer.
+    #[arg(long)]
+    bus_lanes: bool,
     #[command(flatten)]
     plain: Plain,
 }
@@ -275,6 +281,7 @@ impl GridArguments {
                 Order::RightBeforeLeft => Control::RightBeforeLeft,
                 Order::AllWayStop => Control::AllWayStop,
             },
+            bus_lanes: self.bus_lanes,
             driving_side: self.plain.side(),
         })
     }
@@ -286,6 +293,7 @@ impl ArterialArguments {
             junctions: self.junctions,
             block_length_m: self.block_length,
             speed_limit_kmh: self.speed_limit,
+            bus_lanes: self.bus_lanes,
             driving_side: self.plain.side(),
         })
     }

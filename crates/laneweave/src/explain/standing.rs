@@ -19,7 +19,7 @@ pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
         }
         StandsFor::Light(id) => format!("it waits at traffic light {id}"),
         StandsFor::StopSign => "it stops at a stop sign".into(),
-        StandsFor::After(others) => format!("it has its reservation, and drives after {}", vehicles(others)),
+        StandsFor::After(others) => format!("it goes after {}", vehicles(others)),
         StandsFor::LaneEnd(distance) => format!("its lane ends {distance:.1} m ahead"),
         StandsFor::LastPlace(distance) => {
             format!("the last place for a route-driven lane change is {distance:.1} m ahead")
@@ -30,6 +30,7 @@ pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
         StandsFor::LetsIn(distance) => {
             format!("it yields to a vehicle that changes lanes {distance:.1} m ahead")
         }
+        StandsFor::Stop(left) => format!("it rests at a stop of its line for another {left:.1} s"),
         StandsFor::Nothing => "nothing blocks it: it starts to drive".into(),
         StandsFor::Junction { areas, why, others } => {
             let lanelet = |it| network.lanelet_at(it).0.id;

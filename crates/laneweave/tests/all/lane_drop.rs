@@ -7,7 +7,7 @@ use laneweave::models::follow::Pace;
 use laneweave::network::{Network, RoadLaw, Side};
 use laneweave::study::{Estimate, mean};
 use laneweave::style::Population;
-use laneweave_sim::{Class, Demand, Rate, Setup, Share, World};
+use laneweave_sim::{Class, Demand, Rate, Setup, Share, World, desired_speed};
 
 const STEP_S: f64 = 0.1;
 const SECONDS_PER_HOUR: f64 = 3600.0;
@@ -49,7 +49,7 @@ fn equilibrium_of_two_lanes() -> f64 {
     let limit = road(2, None).chains[0].limit(0.0);
     let spacing = |speed: f64| {
         let of = |it: &Style| {
-            let pace = Pace::new(speed, CAR.desired_speed(it, limit, &RoadLaw::FREE));
+            let pace = Pace::new(speed, desired_speed(CAR, it, limit, &RoadLaw::FREE));
             it.follow.equilibrium_gap(pace) + CAR.body().length
         };
         let total: f64 = shares.iter().map(|it| it.weight).sum();

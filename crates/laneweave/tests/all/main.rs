@@ -3,6 +3,7 @@
 mod an_hour_in_town;
 mod approach;
 mod bad_calls;
+mod bus_lanes;
 mod capacity;
 mod checkpoint;
 mod circles;

@@ -33,6 +33,20 @@ fn a_road_is_one_way_whatever_lanes_are_changed() {
 }
 
 #[test]
+fn cars_go_round_a_lanelet_that_is_not_for_them() {
+    let mut map = map("motorway_2_lanes.osm");
+    let ids = |map: &Map| -> Vec<i64> {
+        let found = routes(map, node(map, 1), node(map, 49), Sense::default());
+        let nodes = found.iter().flat_map(|it| &it.steps).map(|it| &map.graph.nodes[it.node.at()]);
+        nodes.map(|it| map.network.lanelets[it.lanelet.at()].id).collect()
+    };
+    assert!(ids(&map).into_iter().eq((1..50).step_by(2)));
+    map.network.lanelets[10].classes = laneweave_network::Classes::BUS_LANE;
+    let round = ids(&map);
+    assert!(!round.is_empty() && !round.contains(&map.network.lanelets[10].id), "{round:?}");
+}
+
+#[test]
 fn there_is_a_way_exactly_where_the_graph_leads() {
     let map = map("ramps.osm");
     for to in (0..map.graph.nodes.len() as u32).map(NodeIndex) {

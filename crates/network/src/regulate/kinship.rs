@@ -62,7 +62,7 @@ impl<'a> Kinship<'a> {
     /// other.
     pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let chain = |it: ChainIndex| self.network.chain(it);
-        let is_partial = |it: ChainIndex| chain(it).is_lane_drop || chain(it).open != Chain::WIDE;
+        let is_partial = |it: ChainIndex| chain(it).is_lane_drop() || chain(it).open != Chain::WIDE;
         let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {
             let mut stretches = Side::BOTH.into_iter().flat_map(|side| chain(from).stretches(side));
             stretches.any(|it| {

@@ -169,19 +169,9 @@ fn fork() -> Network {
             let ends = [from, to].map(|(x, y)| Point::new(x, y + aside, 0.0));
             Polyline::new(ends).expect("it is a line")
         };
-        Lanelet {
-            id,
-            left_border: border(1.75),
-            right_border: border(-1.75),
-            centre: border(0.0),
-            is_in_town: false,
-            speed_limit: 20.0,
-            following: following.iter().map(|it| LaneletIndex(*it)).collect(),
-            left: None,
-            right: None,
-            adjacent_left: None,
-            adjacent_right: None,
-        }
+        let following = following.iter().map(|it| LaneletIndex(*it)).collect();
+        let alone = Lanelet::alone(id, [border(1.75), border(-1.75), border(0.0)], 20.0);
+        Lanelet { following, ..alone }
     };
     let lanelets = vec![
         lanelet(1, (0.0, 0.0), (100.0, 0.0), &[1, 2]),

@@ -14,19 +14,9 @@ fn lanelet(id: i64, from: (f64, f64), to: (f64, f64), following: &[u32]) -> Lane
             .expect("it is a line")
     };
     let (left_border, right_border) = (line(WIDTH), line(0.0));
-    Lanelet {
-        id,
-        centre: Polyline::between(&left_border, &right_border).expect("it is a lane"),
-        left_border,
-        right_border,
-        is_in_town: false,
-        speed_limit: 20.0,
-        following: following.iter().map(|it| LaneletIndex(*it)).collect(),
-        left: None,
-        right: None,
-        adjacent_left: None,
-        adjacent_right: None,
-    }
+    let centre = Polyline::between(&left_border, &right_border).expect("it is a lane");
+    let following = following.iter().map(|it| LaneletIndex(*it)).collect();
+    Lanelet { following, ..Lanelet::alone(id, [left_border, right_border, centre], 20.0) }
 }
 
 /// Lanelet 1 forks at 100 m into 2, which moves up by its width until 200 m, and 3, which goes straight on; 4 and 5

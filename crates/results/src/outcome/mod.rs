@@ -14,4 +14,4 @@ pub use first_incident::FirstIncident;
 pub use provenance::{Provenance, command_line};
 pub use queues::{HeldFor, Queue, Queues};
 pub use short_trips::{ShortTrips, TripMeans};
-pub use summary::{Inputs, Summary};
+pub use summary::{Inputs, LineServed, Summary};

@@ -97,6 +97,8 @@ pub struct Summary {
     pub mean_stops: Option<f64>,
     /// The remaining queues at the entrances, the longest first.
     pub queues: Vec<Queue>,
+    /// The lines of buses of the scenario.
+    pub lines: Vec<LineServed>,
     /// Maximum memory of the process [MB]; 0 where the system does not report it.
     pub peak_rss_mb: f64,
     /// Hash of all vehicles' states at the end, 16 hexadecimal digits.
@@ -121,6 +123,38 @@ pub struct Summary {
     pub version: &'static str,
     /// The path of the map, as the scenario names it.
     pub map: String,
+}
+
+/// What the vehicles of a line of buses did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LineServed {
+    /// The name of the line.
+    pub name: String,
+    /// Vehicles that have departed, with the warm-up.
+    pub departed: u32,
+    /// Stops that they served after the warm-up.
+    pub stops_served: u64,
+    /// Stops that they could not get to in time.
+    pub stops_missed: u64,
+}
+
+impl LineServed {
+    /// Those of all lines.
+    fn all(world: &World) -> Vec<LineServed> {
+        let lines = world.demand().lines.iter().zip(world.lines());
+        let all = lines.map(|(line, count)| LineServed {
+            name: line.name.clone(),
+            departed: count.departed,
+            stops_served: count.served,
+            stops_missed: count.missed,
+        });
+        all.collect()
+    }
+
+    fn to_text(&self) -> String {
+        let LineServed { name, departed, stops_served, stops_missed } = self;
+        format!("{name}: {departed} departed, {stops_served} stops served, {stops_missed} missed")
+    }
 }
 
 /// The inputs of a summary beside the world.
@@ -185,6 +219,7 @@ impl Summary {
             mean_delay_s: trips.delay,
             mean_stops: trips.stops,
             queues: ending.queues.clone(),
+            lines: LineServed::all(world),
             peak_rss_mb: peak_rss_mb(),
             state_hash: format!("{:016x}", world.state_hash()),
             fingerprint: provenance.fingerprint.clone(),
@@ -262,6 +297,9 @@ impl Summary {
         // The longest queues are enough.
         for (number, queue) in self.queues.iter().take(LISTED_QUEUES).enumerate() {
             line(if number == 0 { "waiting" } else { "" }, queue.to_text());
+        }
+        for (number, served) in self.lines.iter().enumerate() {
+            line(if number == 0 { "lines" } else { "" }, served.to_text());
         }
         line("mean speed", format!("{speed} over {:.0} veh-km", self.veh_km));
         line(

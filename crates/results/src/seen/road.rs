@@ -189,7 +189,7 @@ fn after(network: &Network, last: &Piece) -> Option<Piece> {
     if let Some(next) = chain.following.iter().copied().max_by(|a, b| length(a).total_cmp(&length(b))) {
         return Some(Piece { chain: next, from: 0.0, offset: last.offset + chain.length });
     }
-    if !chain.is_lane_drop {
+    if !chain.is_lane_drop() {
         return None;
     }
     let beside = Side::BOTH.into_iter().find_map(|side| chain.beside(side, chain.length))?;

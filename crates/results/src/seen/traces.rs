@@ -135,7 +135,7 @@ impl Course {
 /// The gate's lane on the slow side; if possible one that does not end.
 fn slow_lane(network: &Network, gate: &Gate) -> Option<ChainIndex> {
     let slow = network.driving_side.overtaking().opposite();
-    let goes_on = |chain: ChainIndex| !network.chain(chain).is_lane_drop;
+    let goes_on = |chain: ChainIndex| !network.chain(chain).is_lane_drop();
     let is_slowest = |chain: ChainIndex| {
         network.chain(chain).beside(slow, 0.0).is_none_or(|beside| !goes_on(beside.chain))
     };

@@ -80,7 +80,7 @@ fn simulated(lanes: usize, limit: f64, drivers: &[(Style, f64)], fleet: &Fleet, 
     let shares =
         drivers.iter().zip(0..).map(|((_, weight), first)| Share { weight: *weight, first, count: 1 });
     let total = TOO_MANY * lanes as f64;
-    let demand = Demand::over(Places::at_gates(&network), total, *fleet, shares.collect());
+    let demand = Demand::over(&network, Places::at_gates(&network), total, *fleet, shares.collect());
     let setup = Setup { step: STEP_S, seed: 1, threads: 1 };
     let mut world = World::new(network, driver_parameters, demand, setup).ok()?;
     let drive = |world: &mut World, time: f64| (0..(time / STEP_S) as u32).for_each(|_| world.step());

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 use laneweave_models::{Style, bends};
 use laneweave_network::RoadLaw;
-use laneweave_sim::{Class, Fleet, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW};
+use laneweave_sim::{Class, Fleet, STANDS_BEFORE_A_LINE, STOPS_AT_YELLOW, desired_speed};
 
 /// Vehicles of one class with drivers of one style.
 struct Kind<'a> {
@@ -39,7 +39,7 @@ impl<'a> Mixture<'a> {
             share: share * weight / total,
             style,
             class,
-            desired: class.desired_speed(style, limit, law),
+            desired: desired_speed(class, style, limit, law),
             standing_gap: OnceCell::new(),
         });
         Mixture(all.filter(|it| it.share > 0.0).collect())

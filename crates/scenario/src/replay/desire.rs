@@ -2,7 +2,7 @@
 
 use laneweave_models::Style;
 use laneweave_network::Position;
-use laneweave_sim::{Vehicle, World};
+use laneweave_sim::{Vehicle, World, desired_speed};
 
 use crate::style::Population;
 
@@ -50,7 +50,7 @@ fn log_likelihood(vehicle: &Vehicle, style: &Style, world: &World) -> f64 {
     let (speed, limit) = (vehicle.speed(), lanelet.speed_limit);
     let is_free = scene.ahead(scene.viewpoint(vehicle.spot)).is_none_or(|it| it.gap > FREE * speed)
         && speed > SPEEDING_UP * limit;
-    let faster = speed - vehicle.driver.class.desired_speed(style, limit, &world.network().law);
+    let faster = speed - desired_speed(vehicle.driver.class, style, limit, &world.network().law);
     let off = if is_free { faster } else { faster.max(0.0) };
     -0.5 * (off / SPREAD) * (off / SPREAD)
 }

@@ -1,9 +1,10 @@
 //! From the demand of a scenario to that of the world.
 
-use laneweave_network::{Network, Position};
+use laneweave_network::{Classes, Network, Position};
 use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
 use laneweave_study::units::METRES_PER_KM;
 
+use super::line::{add_lines, check_lines};
 use super::turns::set_turns;
 use super::{OdRow, Origin, Scenario, VehiclesPerHour, headways};
 use crate::fault::{Fault, did_you_mean};
@@ -30,12 +31,12 @@ pub(super) fn demand(
     total: Option<f64>,
 ) -> Result<Demand, Fault> {
     let wanted = &scenario.demand;
-    let lanes: usize = places.origins.iter().map(|place| place.chains().len()).sum();
+    let lanes: usize = places.origins.iter().map(|it| it.chains().len()).sum();
     // A table of origins and destinations is the whole demand, unless a total is given for the other origins.
     let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
     let total = wanted.vehicles_per_hour.or(total).unwrap_or_else(usual);
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
-    let mut demand = Demand::over(places, total, wanted.fleet(), population);
+    let mut demand = Demand::over(network, places, total, wanted.fleet(), population);
     let weights = weights(scenario, origin, &demand)?;
     demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
     set_turns(scenario, origin, network, &mut demand)?;
@@ -46,6 +47,7 @@ pub(super) fn demand(
         let factor = by_pieces(&wanted.profile, place, (f64::MAX, "a factor", ""))?;
         demand.origins.iter_mut().for_each(|it| it.rate = it.rate.times(&factor));
     }
+    add_lines(scenario, origin, network, &mut demand)?;
     demand.headways = wanted.headways.into();
     headways::check(&demand, origin)?;
     Ok(demand)
@@ -54,7 +56,8 @@ pub(super) fn demand(
 impl super::Demand {
     /// The classes of its vehicles.
     pub(crate) fn fleet(&self) -> Fleet {
-        Fleet { trucks: self.trucks, buses: self.buses, motorcycles: self.motorcycles }
+        let super::Demand { trucks, buses, motorcycles, taxis, emergency, .. } = *self;
+        Fleet { trucks, buses, motorcycles, taxis, emergency }
     }
 }
 
@@ -129,11 +132,27 @@ fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Res
     Ok(())
 }
 
-/// Checks that every row of the table of origins and destinations has a route.
+/// Checks that somebody of the demand may start at every origin with a rate, and that every line, and every row of the
+/// table of origins and destinations, has a route.
 ///
 /// # Errors
-/// The first row without one.
+/// The first origin at which nobody may start, or the first line or row without a route.
 pub(super) fn check_ways(scenario: &Scenario, origin: &Origin, world: &World) -> Result<(), Fault> {
+    for (start, number) in world.demand().origins.iter().zip(0..) {
+        let network = world.network();
+        let lanes = start.place.chains().iter().map(|it| network.chain(*it).classes);
+        let classes = lanes.fold(Classes::NONE, Classes::and);
+        let is_for_nobody = world.starting_at(number).is_empty() && classes != Classes::ALL;
+        if start.rate.highest() > 0.0 && is_for_nobody {
+            let (id, classes) = (start.place.id(), classes.names());
+            let what = format!(
+                "the lanes of the entrance {id} are for {classes} only, and the demand has none of these"
+            );
+            let remedy = "give the demand a share of one of these classes, or remove the entrance from it";
+            return Err(Fault::new(origin.place(&["demand"]), what, remedy));
+        }
+    }
+    check_lines(scenario, origin, world)?;
     for (row, number) in scenario.demand.od.iter().zip(0..) {
         let place = |key| place_in_row(origin, number, key);
         let (from, to) = ends(row, world.demand(), place)?;
@@ -187,7 +206,7 @@ fn by_pieces(
 /// The default demand [veh/h].
 fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
     let of_place = |place: &Place| match place {
-        Place::Gate(gate) => USUAL_DEMAND * gate.chains.len() as f64,
+        Place::Gate(_) => USUAL_DEMAND * place.lanes(network) as f64,
         Place::Inside(inner) => {
             let (lanelet, _) = network.lanelet_at(Position::new(inner.chain, inner.station));
             USUAL_STARTS * lanelet.length() / METRES_PER_KM
@@ -197,7 +216,7 @@ fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
 }
 
 /// The index in `places` of the place `id`.
-fn named<'a>(
+pub(super) fn named<'a>(
     places: impl Iterator<Item = &'a Place> + Clone,
     id: &str,
     what: &str,

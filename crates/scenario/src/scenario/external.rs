@@ -22,7 +22,7 @@ pub struct External {
     pub speed_mps: f64,
     /// Its class.
     #[serde(default = "car")]
-    #[schemars(with = "String", extend("enum" = ["car", "truck", "bus", "motorcycle"]))]
+    #[schemars(with = "String", extend("enum" = ["car", "truck", "bus", "motorcycle", "taxi", "emergency"]))]
     pub class: Class,
     /// The style of its driver: the name of one of the styles of the scenario.
     pub style: String,

@@ -4,6 +4,7 @@ mod basis;
 mod demand;
 mod external;
 mod headways;
+mod line;
 mod made_signals;
 mod map;
 mod mixture;
@@ -30,6 +31,7 @@ use crate::style::{DEFAULT_MIXTURE, Model};
 pub use basis::Basis;
 pub use external::External;
 pub use headways::Headways;
+pub use line::{Line, Stop};
 pub use map::{open_map, read_map};
 pub use mixture::mixture;
 pub use obstacle::Obstacle;
@@ -152,8 +154,12 @@ pub struct Demand {
     pub trucks: f64,
     /// Share of buses, 0 to 1.
     pub buses: f64,
-    /// Share of motorcycles, 0 to 1; all other vehicles are cars.
+    /// Share of motorcycles, 0 to 1.
     pub motorcycles: f64,
+    /// Share of taxis, 0 to 1: they may use lanes for buses.
+    pub taxis: f64,
+    /// Share of vehicles of police, fire brigade and ambulance, on usual trips, 0 to 1; all other vehicles are cars.
+    pub emergency: f64,
     /// Vehicles per hour at single entrances (keys: the smallest lanelet id of the entrance), in place of their share
     /// of the total.
     pub entrances: BTreeMap<String, VehiclesPerHour>,
@@ -162,6 +168,8 @@ pub struct Demand {
     /// Vehicles per hour from single entrances to single exits, in place of the entrance's share of the total and the
     /// weights of the exits.
     pub od: Vec<OdRow>,
+    /// Lines of buses, beside all other demand.
+    pub line: Vec<Line>,
     /// Factors on all demands: [[time_s, factor], …]. Each factor holds from its time on, counted from the start of
     /// the simulation (with the warm-up).
     pub profile: Vec<[f64; 2]>,
@@ -176,9 +184,12 @@ impl Default for Demand {
             trucks: 0.1,
             buses: 0.0,
             motorcycles: 0.0,
+            taxis: 0.0,
+            emergency: 0.0,
             entrances: BTreeMap::new(),
             exits: BTreeMap::new(),
             od: Vec::new(),
+            line: Vec::new(),
             profile: Vec::new(),
             headways: Headways::default(),
         }

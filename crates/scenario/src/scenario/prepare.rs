@@ -20,7 +20,7 @@ use super::turns::check_arrivals;
 use super::{Origin, Scenario, SumoFile};
 use crate::capacity::{Estimate, Queues};
 use crate::fault::Fault;
-use crate::remarks::{Remark, remarks};
+use crate::remarks::{Remark, remarks, unused_lanes};
 use crate::replay::{Player, Recorded};
 use crate::script::Script;
 use crate::style::{Population, StyleTemplate};
@@ -162,7 +162,8 @@ fn prepare_with(
     // A user cannot correct the built-in map.
     let is_own = origin.map.is_none();
     let network = playing.permit(network);
-    let remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
+    let mut remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
+    remarks.extend(unused_lanes(&network, scenario.demand.fleet()));
     let plans = plans(scenario, origin, &network)?;
     let made = MadeLights::of(scenario, &plans);
     let network = Arc::new(network.with_signals(&plans));
@@ -292,11 +293,18 @@ fn check_numbers(scenario: &Scenario, origin: &Origin) -> Result<(), Fault> {
     check(&["run", "step_s"], "a step", run.step_s, STEPS, " s")?;
     check(&["run", "duration_s"], "a duration", run.duration_s, (run.step_s, LONGEST), " s")?;
     check(&["run", "warmup_s"], "a warm-up", run.warmup_s, (0.0, LONGEST), " s")?;
-    check(&["demand", "trucks"], "a share of trucks", demand.trucks, (0.0, 1.0), "")?;
-    let room = 1.0 - demand.trucks;
-    check(&["demand", "buses"], "a share of buses", demand.buses, (0.0, room), "")?;
-    let room = room - demand.buses;
-    check(&["demand", "motorcycles"], "a share of motorcycles", demand.motorcycles, (0.0, room), "")?;
+    let shares = [
+        ("trucks", "a share of trucks", demand.trucks),
+        ("buses", "a share of buses", demand.buses),
+        ("motorcycles", "a share of motorcycles", demand.motorcycles),
+        ("taxis", "a share of taxis", demand.taxis),
+        ("emergency", "a share of emergency vehicles", demand.emergency),
+    ];
+    let mut room = 1.0;
+    for (key, what, share) in shares {
+        check(&["demand", key], what, share, (0.0, room), "")?;
+        room -= share;
+    }
     if let Some(size) = scenario.map_options.max_size_mb {
         let largest = Size::MAXIMUM.mb();
         check(&["map_options", "max_size_mb"], "a largest map", size, (f64::MIN_POSITIVE, largest), " MB")?;

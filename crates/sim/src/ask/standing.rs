@@ -11,6 +11,7 @@ use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{earlier, look, sight};
 use crate::right_of_way::may_pass::{Asking, PassHindrance, may_pass};
 use crate::right_of_way::survey::stop_ahead;
+use crate::state::externals::{Kind, Service};
 use crate::state::lane::VehicleId;
 use crate::step::world::World;
 use crate::view::scene::{Scene, Spot};
@@ -38,7 +39,7 @@ pub enum StandsFor {
         /// The vehicles that have a reservation of the area, or a waiting priority there.
         others: Vec<VehicleId>,
     },
-    /// It has a reservation, and follows these vehicles.
+    /// It goes after these vehicles.
     After(Vec<VehicleId>),
     /// The end of its lane, so far ahead [m].
     LaneEnd(f64),
@@ -53,6 +54,8 @@ pub enum StandsFor {
     },
     /// It lets in a vehicle so far ahead [m].
     LetsIn(f64),
+    /// It rests at a stop of its line, for so long yet [s].
+    Stop(f64),
     /// Nothing: it drives off.
     Nothing,
 }
@@ -71,8 +74,13 @@ pub enum JunctionHindrance {
 /// What the vehicle at `spot` stands for.
 pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let scene = world.scene();
-    let junction = look(&scene, spot);
     let (motion, lane_change) = (scene.motion(spot), scene.lane_change(spot));
+    if let Some(Kind::Line(Service { rests_until: Some(step), .. })) =
+        scene.externals.of(motion.id).map(|it| it.kind)
+    {
+        return StandsFor::Stop(step.saturating_sub(world.clock().step) as f64 * world.clock().dt);
+    }
+    let junction = look(&scene, spot);
     let from = scene.viewpoint(spot);
     let leader = scene.ahead(from).zip(scene.leader_spot(from));
     let leader = leader.map(|(it, spot)| (it.gap, scene.motion(spot)));

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::demand::Demand;
 use crate::demand::perimeter_control::PerimeterControl;
-use crate::demand::source::{Coming, Queue, Source};
+use crate::demand::source::{Arrival, Coming, Queue, Source};
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
 use crate::state::externals::FIRST_INSERTED;
@@ -19,6 +19,17 @@ pub(crate) struct Arrivals {
     backlog: Backlog,
 }
 
+/// What the vehicles of a line did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LineCount {
+    /// Vehicles that have departed, or wait to enter the map.
+    pub departed: u32,
+    /// Stops that they served.
+    pub served: u64,
+    /// Stops that they could not get to in time.
+    pub missed: u64,
+}
+
 /// The insertion backlog, and what decides whether it may enter: all of [`Arrivals`] that changes.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Backlog {
@@ -28,6 +39,8 @@ pub(crate) struct Backlog {
     perimeter: Option<PerimeterControl>,
     /// The weight of each style of the population.
     weights: Vec<f64>,
+    /// By line of the demand.
+    lines: Vec<LineCount>,
     next_id: VehicleId,
     /// That of the next vehicle that a user puts on the road.
     next_inserted: VehicleId,
@@ -39,7 +52,9 @@ impl Arrivals {
         let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
         let perimeter = PerimeterControl::new(roads.network());
         let weights = demand.population.iter().map(|it| it.weight).collect();
-        let backlog = Backlog { sources, perimeter, weights, next_id: 0, next_inserted: FIRST_INSERTED };
+        let lines = vec![LineCount::default(); demand.lines.len()];
+        let (next_id, next_inserted) = (0, FIRST_INSERTED);
+        let backlog = Backlog { sources, perimeter, weights, lines, next_id, next_inserted };
         Arrivals { demand, backlog }
     }
 
@@ -109,9 +124,38 @@ impl Arrivals {
 
     /// The vehicles that arrive at an origin by `time` [s] join its queues.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
-        let Arrivals { demand, backlog: Backlog { sources, perimeter, weights, next_id, .. } } = self;
+        let Arrivals { demand, backlog: Backlog { sources, perimeter, weights, lines, next_id, .. } } = self;
         let coming = Coming { demand, weights, perimeter: perimeter.as_ref() };
         sources[origin].arrive(scene, coming, random, time, next_id);
+        for ((line, count), number) in demand.lines.iter().zip(lines).zip(0..) {
+            while line.origin == origin && line.departures.time(count.departed) <= time {
+                let (id, came) = (*next_id, line.departures.time(count.departed));
+                let parameters = demand.draw_driver(weights, random, id);
+                let destination = scene.navigator.seen_by(line.class, Some(line.goal(0)));
+                let (class, is_through_town) = (line.class, false);
+                let line = Some(number);
+                let arrival =
+                    Arrival { id, time: came, class, parameters, destination, is_through_town, line };
+                sources[origin].join(scene, arrival);
+                (*next_id, count.departed) = (id + 1, count.departed + 1);
+            }
+        }
+    }
+
+    /// What the vehicles of each line did.
+    pub(crate) fn lines(&self) -> &[LineCount] {
+        &self.backlog.lines
+    }
+
+    /// Counts a stop that a vehicle of a line served, or missed.
+    pub(crate) fn count_stop(&mut self, line: usize, is_served: bool) {
+        let LineCount { served, missed, .. } = &mut self.backlog.lines[line];
+        *(if is_served { served } else { missed }) += 1;
+    }
+
+    /// Counts the stops of lines anew.
+    pub(crate) fn reset_stops(&mut self) {
+        self.backlog.lines.iter_mut().for_each(|it| (it.served, it.missed) = (0, 0));
     }
 
     /// Vehicles that wait to enter.
@@ -121,7 +165,8 @@ impl Arrivals {
 
     /// Vehicles that have arrived, whether they entered or wait.
     pub(crate) fn count_arrived(&self) -> u64 {
-        self.backlog.sources.iter().map(Source::arrived).sum()
+        let of_lines = self.backlog.lines.iter().map(|it| u64::from(it.departed));
+        self.backlog.sources.iter().map(Source::arrived).chain(of_lines).sum()
     }
 
     /// All of it that changes.
@@ -145,17 +190,19 @@ impl Backlog {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Backlog { sources, perimeter, weights, next_id: _, next_inserted } = self;
+        let Backlog { sources, perimeter, weights, lines, next_id: _, next_inserted } = self;
         let perimeter_fits = match (perimeter, &other.perimeter) {
             (Some(one), Some(other)) => one.fits(other),
             (one, other) => one.is_none() && other.is_none(),
         };
-        let source_fits =
-            |(one, other): (&Source, &Source)| one.fits(other, clock, driver_parameters, &is_known);
+        let source_fits = |(one, other): (&Source, &Source)| {
+            one.fits(other, clock, driver_parameters, lines.len(), &is_known)
+        };
         sources.len() == other.sources.len()
             && sources.iter().zip(&other.sources).all(source_fits)
             && perimeter_fits
             && weights.len() == other.weights.len()
+            && lines.len() == other.lines.len()
             && weights.iter().all(|it| *it >= 0.0)
             && weights.iter().sum::<f64>() > 0.0
             && *next_inserted >= FIRST_INSERTED

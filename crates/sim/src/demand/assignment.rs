@@ -53,7 +53,7 @@ impl Assignment {
     pub fn new(network: &Network, navigator: &Navigator, demand: &Demand, during: [f64; 2]) -> Assignment {
         let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
         let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
-        let rate = |it: &Origin| if comes_nobody { it.place.chains().len() as f64 } else { mean(it) };
+        let rate = |it: &Origin| if comes_nobody { it.place.lanes(network) as f64 } else { mean(it) };
         let chains = network.chains.len();
         let mut assignment = Assignment {
             parts: vec![Vec::new(); chains],
@@ -96,10 +96,10 @@ impl Assignment {
     }
 }
 
-/// The share of the drivers of an origin that goes to each destination.
+/// The share of the car drivers of an origin that goes to each destination.
 fn shares(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<f64> {
     let weight = |(weight, destination): (&f64, u16)| {
-        if *weight > 0.0 && navigator.leads(network, &origin.place, destination) { *weight } else { 0.0 }
+        if *weight > 0.0 && navigator.leads_to(network, &origin.place, destination) { *weight } else { 0.0 }
     };
     let weights: Vec<f64> = origin.weights.iter().zip(0..).map(weight).collect();
     let sum: f64 = weights.iter().sum();
@@ -145,11 +145,11 @@ impl<'a> Spread<'a> {
     /// Lets `flow` begin its trips at `place`. At a gate it uses the lanes with the fewest lane changes left.
     fn begin(&mut self, place: &Place, flow: f64) {
         match place {
-            Place::Gate(gate) => {
-                let changes = |it: &&ChainIndex| self.waypoint(**it).changes;
-                let fewest = gate.chains.iter().map(|it| changes(&it)).min();
-                let lanes: Vec<ChainIndex> =
-                    gate.chains.iter().filter(|it| Some(changes(it)) == fewest).copied().collect();
+            Place::Gate(_) => {
+                let changes = |it: &ChainIndex| self.waypoint(*it).changes;
+                let mut lanes: Vec<ChainIndex> = place.for_cars(self.network).collect();
+                let fewest = lanes.iter().map(changes).min();
+                lanes.retain(|it| Some(changes(it)) == fewest);
                 lanes.iter().for_each(|it| self.come(*it, flow / lanes.len() as f64));
             }
             Place::Inside(inner) => self.go_on(inner.chain, inner.station, flow, true),

@@ -34,6 +34,9 @@ pub enum WorldError {
         /// Its upper limit, in words.
         limit: String,
     },
+    /// A line has places that the demand has not.
+    #[error("line {0} has an origin, a stop or a destination that the demand does not have")]
+    Line(String),
     /// The headways are impossible.
     #[error(transparent)]
     Headways(#[from] HeadwayError),

@@ -9,6 +9,7 @@ pub(crate) mod arrivals;
 pub(crate) mod assignment;
 pub(crate) mod error;
 pub(crate) mod headways;
+pub(crate) mod line;
 pub(crate) mod perimeter_control;
 pub(crate) mod places;
 pub(crate) mod rate;
@@ -18,6 +19,7 @@ use laneweave_network::Network;
 
 use crate::demand::error::WorldError;
 use crate::demand::headways::Headways;
+use crate::demand::line::Line;
 use crate::demand::places::Places;
 use crate::demand::rate::Rate;
 use crate::route::place::Place;
@@ -38,6 +40,10 @@ pub struct Demand {
     pub fleet: Fleet,
     /// The styles and their weights.
     pub population: Vec<Share>,
+    /// Lines of buses.
+    pub lines: Vec<Line>,
+    /// How many of the last destinations are stops of lines: no other trip ends there.
+    pub stops: usize,
 }
 
 /// A place at which trips start.
@@ -66,17 +72,23 @@ impl Demand {
     /// A demand of `total` vehicles per hour over all entrances, by their numbers of lanes; all destinations have equal
     /// weights.
     pub fn even(network: &Network, total: f64, trucks: f64, population: Vec<Share>) -> Demand {
-        Demand::over(Places::at_gates(network), total, Fleet::with_trucks(trucks), population)
+        Demand::over(network, Places::at_gates(network), total, Fleet::with_trucks(trucks), population)
     }
 
-    /// A demand of `total` vehicles per hour over all origins, by their numbers of lanes; all destinations have equal
-    /// weights.
-    pub fn over(places: Places, total: f64, fleet: Fleet, population: Vec<Share>) -> Demand {
+    /// A demand of `total` vehicles per hour over all origins of `network`, by the numbers of their lanes for cars; all
+    /// destinations have equal weights.
+    pub fn over(
+        network: &Network,
+        places: Places,
+        total: f64,
+        fleet: Fleet,
+        population: Vec<Share>,
+    ) -> Demand {
         let Places { origins, destinations } = places;
-        let lanes: usize = origins.iter().map(|place| place.chains().len()).sum();
+        let lanes: usize = origins.iter().map(|it| it.lanes(network)).sum();
         let weights = vec![1.0; destinations.len()];
         let origin = |place: Place| {
-            let rate = total * place.chains().len() as f64 / lanes as f64;
+            let rate = total * place.lanes(network) as f64 / lanes.max(1) as f64;
             Origin { place, rate: Rate::constant(rate), weights: weights.clone() }
         };
         Demand {
@@ -85,6 +97,8 @@ impl Demand {
             headways: Headways::default(),
             fleet,
             population,
+            lines: Vec::new(),
+            stops: 0,
         }
     }
 }
@@ -116,12 +130,14 @@ impl Demand {
         let weights = self.origins.iter().flat_map(|it| &it.weights);
         let exits = weights.map(|it| ("the weight of an exit", *it, f64::MAX));
         let styles = self.population.iter().map(|it| ("the weight of a style", it.weight, f64::MAX));
-        let Fleet { trucks, buses, motorcycles } = self.fleet;
+        let Fleet { trucks, buses, motorcycles, taxis, emergency } = self.fleet;
         let [(_, cars), ..] = self.fleet.shares();
         let classes = [
             ("the share of trucks", trucks, 1.0),
             ("the share of buses", buses, 1.0),
             ("the share of motorcycles", motorcycles, 1.0),
+            ("the share of taxis", taxis, 1.0),
+            ("the share of emergency vehicles", emergency, 1.0),
             ("the share of cars", cars, 1.0),
         ];
         for (what, value, largest) in rates.chain(exits).chain(styles).chain(classes) {
@@ -136,6 +152,13 @@ impl Demand {
         }
         for origin in &self.origins {
             self.headways.check(origin.rate_of_a_lane())?;
+        }
+        let is_known = |it: &Line| {
+            let mut stops = it.stops.iter().map(|stop| stop.destination).chain([it.destination]);
+            it.origin < self.origins.len() && stops.all(|it| it < self.destinations.len())
+        };
+        if let Some(line) = self.lines.iter().find(|it| !is_known(it)) {
+            return Err(WorldError::Line(line.name.clone()));
         }
         if self.destinations.len() > Demand::MOST_DESTINATIONS {
             return Err(WorldError::Destinations(self.destinations.len(), Demand::MOST_DESTINATIONS));

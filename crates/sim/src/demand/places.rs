@@ -3,9 +3,10 @@
 use laneweave_network::{ChainIndex, Gate, LaneletIndex, Network};
 
 use crate::demand::Demand;
+use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::navigate::Navigator;
 use crate::route::place::{InnerPlace, Place};
-use crate::state::vehicle::LONGEST;
+use crate::state::vehicle::{Fleet, LONGEST};
 
 /// The places of a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +36,8 @@ impl Places {
             if cut_off.is_empty() {
                 break;
             }
-            let navigator = Navigator::towards(network, destination);
+            let restrictions = ClassRestrictions::of(network, &Fleet::default());
+            let navigator = Navigator::with_restrictions(network, destination, restrictions);
             cut_off.retain(|it| !navigator.leads(network, &self.origins[*it], 0));
         }
         let mut numbers = 0..self.origins.len();

@@ -14,12 +14,11 @@ use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::junction::storage_section::StorageSection;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
-use crate::route::waypoint::Waypoint;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::lane::{Kinematics, VehicleId};
 use crate::state::random::{Purpose, Random};
-use crate::state::vehicle::Class;
+use crate::state::vehicle::{Class, Classes};
 use crate::view::scene::Scene;
 
 /// A driver enters the map in a lane of its route if the last place for its lane changes is within this distance per
@@ -37,6 +36,8 @@ pub(crate) struct Arrival {
     pub(crate) destination: Destination,
     /// Its route leads through the town core, which may be full.
     pub(crate) is_through_town: bool,
+    /// The line that it serves.
+    pub(crate) line: Option<u16>,
 }
 
 /// An origin with its queues.
@@ -51,8 +52,10 @@ pub(crate) struct Source {
     streams: Vec<Stream>,
     /// The queues of its lanes, from the slow side to the fast side.
     lanes: Vec<Queue>,
-    /// Destinations with their cumulated weights.
-    destinations: Vec<(Destination, f64)>,
+    /// For each class restriction the destinations that can be reached from here, with their cumulated weights.
+    destinations: Vec<Vec<(Destination, f64)>>,
+    /// The classes of the demand that start here.
+    possible: Classes,
 }
 
 /// Vehicles that arrive one after the other.
@@ -130,13 +133,22 @@ impl Source {
             let lanes = queues(network, &origin.place);
             let count = if demand.headways == Headways::Exponential { 1 } else { lanes.len() };
             let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
+            let destinations: Vec<_> =
+                navigator.restrictions().map(|it| destinations(network, navigator, origin, it)).collect();
+            let leads = |class: &Class| !destinations[navigator.restriction_of(*class)].is_empty();
+            let may_start =
+                |class: &Class| lanes.iter().any(|it| network.chain(it.chain).classes.has(*class));
+            let leads_nowhere = destinations.iter().all(Vec::is_empty);
+            let starts = |it: &Class| if leads_nowhere { may_start(it) } else { leads(it) };
+            let possible = demand.fleet.classes().iter().filter(starts).collect();
             let mut source = Source {
                 headways: demand.headways,
                 rate: origin.rate.times(&Rate::constant(1.0 / count as f64)),
                 user_rate: None,
                 streams: numbers.map(|number| Stream { number, arrived: 0, next: 0.0 }).collect(),
                 lanes,
-                destinations: destinations(network, navigator, origin),
+                destinations,
+                possible,
             };
             (0..count).for_each(|stream| source.draw_next(stream, random));
             source
@@ -144,18 +156,22 @@ impl Source {
         sources.collect()
     }
 
-    /// Whether it is the source of the same origin as `other` at `clock`, with this many sets of driver parameters, and
-    /// names known destinations only.
+    /// Whether it is the source of the same origin as `other` at `clock`, with this many sets of driver parameters and
+    /// lines, and names known destinations only.
     pub(crate) fn fits(
         &self,
         other: &Source,
         clock: Clock,
         driver_parameters: usize,
+        lines_of_demand: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Source { headways, rate: _, user_rate: _, streams, lanes, destinations } = self;
-        let arrival_fits =
-            |it: &Arrival| (it.parameters as usize) < driver_parameters && is_known(it.destination);
+        let Source { headways, rate: _, user_rate: _, streams, lanes, destinations, possible } = self;
+        let arrival_fits = |it: &Arrival| {
+            (it.parameters as usize) < driver_parameters
+                && is_known(it.destination)
+                && it.line.is_none_or(|it| usize::from(it) < lines_of_demand)
+        };
         let queue_fits = |(one, other): (&Queue, &Queue)| {
             one.chain == other.chain
                 && one.start == other.start
@@ -166,6 +182,7 @@ impl Source {
             |(one, other): (&Stream, &Stream)| one.number == other.number && one.next >= clock.time();
         headways == &other.headways
             && destinations == &other.destinations
+            && possible == &other.possible
             && streams.len() == other.streams.len()
             && streams.iter().zip(&other.streams).all(stream_fits)
             && lanes.len() == other.lanes.len()
@@ -207,7 +224,7 @@ impl Source {
         let due = |source: &Source| {
             let streams = source.streams.iter().enumerate();
             let (index, first) = streams.min_by(|(_, a), (_, b)| a.next.total_cmp(&b.next))?;
-            (first.next <= time).then_some(index)
+            (first.next <= time && !source.possible.is_empty()).then_some(index)
         };
         while let Some(stream) = due(self) {
             let came = self.streams[stream].next;
@@ -224,6 +241,12 @@ impl Source {
         }
     }
 
+    /// A vehicle joins a queue.
+    pub(crate) fn join(&mut self, scene: &Scene, arrival: Arrival) {
+        let lane = self.lane_for(scene, &arrival);
+        self.lanes[lane].waiting.push_back(arrival);
+    }
+
     /// Makes the vehicle `id` that arrives at `time` [s], from random numbers.
     fn draw(
         &self,
@@ -233,33 +256,19 @@ impl Source {
         (id, time): (VehicleId, f64),
     ) -> Arrival {
         let uniform = |purpose| random.uniform(id, purpose, 0);
-        let class = demand.fleet.class(uniform(Purpose::Class));
+        let class = demand.fleet.class(uniform(Purpose::Class), self.possible);
         let parameters = demand.draw_driver(weights, random, id);
-        let last = self.destinations.last().map_or(0.0, |it| it.1);
-        let wanted = uniform(Purpose::Destination) * last;
-        let destination = self.destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
-        let destination = self.reachable_for(navigator, class, destination);
-        Arrival { id, time, class, parameters, destination, is_through_town: false }
+        let destinations = &self.destinations[navigator.restriction_of(class)];
+        let wanted = uniform(Purpose::Destination) * destinations.last().map_or(0.0, |it| it.1);
+        let destination = destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
+        Arrival { id, time, class, parameters, destination, is_through_town: false, line: None }
     }
 
-    /// A destination with the class restriction of `class`. If the class has no route to it, the destination with the
-    /// least travel time to which it has one.
-    fn reachable_for(&self, navigator: &Navigator, class: Class, destination: Destination) -> Destination {
-        let seen = |it: Destination| navigator.seen_by(class, it);
-        let time = |it: Destination| {
-            let waypoints = self.lanes.iter().map(|lane| navigator.waypoint(it, lane.chain));
-            waypoints.filter(|it| it.leads_there()).map(Waypoint::cost).reduce(f64::min)
-        };
-        if time(seen(destination)).is_some() {
-            return seen(destination);
-        }
-        let others = self.destinations.iter().map(|it| seen(it.0)).filter_map(|it| Some((it, time(it)?)));
-        others.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(seen(destination), |it| it.0)
-    }
-
-    /// The lane in which a driver queues. First: fewest lane changes, if they have to be made soon. Then: long vehicles
-    /// on the slow side, others where fewer vehicles wait, and where there is more space.
+    /// The lane in which a driver queues, among those that its class may use. First: fewest lane changes, if they have
+    /// to be made soon. Then: long vehicles on the slow side, others where fewer vehicles wait, and where there is more
+    /// space.
     fn lane_for(&self, scene: &Scene, arrival: &Arrival) -> usize {
+        let may_use = |it: &Queue| scene.network.chain(it.chain).classes.has(arrival.class);
         let key = |queue: &Queue| {
             let waypoint = scene.navigator.waypoint(arrival.destination, queue.chain);
             let room = scene.motions(queue.chain).first().map_or(f64::INFINITY, Kinematics::rear);
@@ -270,7 +279,8 @@ impl Source {
         let order = |a: &(u32, usize, f64), b: &(u32, usize, f64)| {
             (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
         };
-        let keys = self.lanes.iter().map(key).enumerate();
+        let lanes = self.lanes.iter().enumerate().filter(|it| may_use(it.1));
+        let keys = lanes.map(|(index, it)| (index, key(it)));
         keys.min_by(|a, b| order(&a.1, &b.1)).map_or(0, |(index, _)| index)
     }
 
@@ -281,6 +291,11 @@ impl Source {
     /// Its queues, read-only.
     pub(crate) fn lanes(&self) -> &[Queue] {
         &self.lanes
+    }
+
+    /// The classes of the demand that start here.
+    pub(crate) fn possible(&self) -> Classes {
+        self.possible
     }
 
     /// Vehicles that wait.
@@ -342,16 +357,21 @@ fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<ChainIndex> {
     chains
 }
 
-/// The destinations that can be reached from an origin, with cumulated weights.
-fn destinations(network: &Network, navigator: &Navigator, origin: &Origin) -> Vec<(Destination, f64)> {
-    let weighted = (0u16..)
+/// The destinations, from the table `first` on, that can be reached from an origin, with cumulated weights.
+fn destinations(
+    network: &Network,
+    navigator: &Navigator,
+    origin: &Origin,
+    first: u16,
+) -> Vec<(Destination, f64)> {
+    let weighted = (first..)
         .zip(&origin.weights)
-        .filter(|(number, weight)| **weight > 0.0 && navigator.leads(network, &origin.place, *number));
+        .filter(|(table, weight)| **weight > 0.0 && navigator.leads_to(network, &origin.place, *table));
     let mut sum = 0.0;
     weighted
-        .map(|(number, weight)| {
+        .map(|(table, weight)| {
             sum += weight;
-            (Some(number), sum)
+            (Some(table), sum)
         })
         .collect()
 }

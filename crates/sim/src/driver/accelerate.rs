@@ -320,7 +320,7 @@ fn reacting_to_more(
     }
     if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
         let end = lane_end.of_entry(scene, spot);
-        let kept = within_window(kept_room(scene, clock, spot), end - lane_end.window);
+        let kept = within_window(kept_room(scene, clock, spot, end - motion.x), end - lane_end.window);
         let stopping = to_stop_at(motion.speed, end - kept - motion.x, clock.dt);
         wish = wish.or(stopping, BrakingCause::LaneEnd);
         obstacle = Some(Ahead::standing(end - motion.x - steering::kept_to_begin(scene, spot)));
@@ -347,7 +347,7 @@ fn before_closure(
     let Some(closed) = closed.filter(|closed| end.is_none_or(|it| *closed < it.gap)) else {
         return (wish, end);
     };
-    let room = closed - kept_room(scene, clock, spot);
+    let room = closed - kept_room(scene, clock, spot, closed);
     let stopping = to_stop_at(scene.motion(spot).speed, room, clock.dt);
     let wish = wish.or(stopping, BrakingCause::LaneEnd);
     (wish, Some(Ahead::standing(closed - steering::kept_to_begin(scene, spot))))

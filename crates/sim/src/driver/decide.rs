@@ -95,7 +95,7 @@ pub(crate) fn abort_if_it_must(scene: &Scene, spot: Spot, outbox: &mut Outbox) {
     let Some(counterpart) = lane_change.counterpart.filter(|_| lane_change.progress < 0.5) else { return };
     // In a lane that ends here, or that is closed ahead, the driver could no longer stop before the end, or be back.
     let here = scene.network.chain(spot.chain);
-    let end = here.is_lane_drop.then(|| here.driven_until(driver.class.is_long()) - motion.x);
+    let end = here.ends_for.has(driver.class).then(|| here.driven_until(driver.class.is_long()) - motion.x);
     let closure = scene.end_of_lane_ahead(scene.viewpoint(spot)).map(|it| it.ahead);
     let style = scene.style_of(driver);
     let way_back = steering::way_back(&style.manner, motion, lane_change);

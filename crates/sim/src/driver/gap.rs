@@ -73,7 +73,7 @@ pub(crate) fn gap(scene: &Scene, spot: Spot, side: Side) -> Option<Gap> {
     let beside = window::beside(scene, spot, side)?;
     let x = beside.across(motion.x);
     let from = scene.viewpoint_at(scene.viewpoint(spot), beside.chain, x);
-    scene.takes(beside.chain, x, from.is_long).then(|| Gap {
+    scene.takes(beside.chain, x, from.class).then(|| Gap {
         chain: beside.chain,
         x,
         is_coming: motion.x < beside.start,
@@ -214,8 +214,7 @@ impl Gap {
             return Err(Hindrance::TooLittleRoad);
         }
         // A driver does not change into a lane that ends if it could not stop before the end.
-        let is_long = scene.driver(spot).class.is_long();
-        let end = lane_end(scene, self.chain).map(|it| it.open_for(is_long) - self.x);
+        let end = lane_end(scene, self.chain).map(|it| it.open_for(scene.driver(spot).class) - self.x);
         let needed = || 2.0 * crossing + stopping_way(speed);
         if end.is_some_and(|it| it < needed()) {
             return Err(Hindrance::TooLittleRoad);
@@ -314,20 +313,15 @@ impl Gap {
     fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
         /// Least distance to such a place at which lanes are still changed, at walking speed [m].
         const LEAST: f64 = 15.0;
-        /// A junction may reach this far into a chain [m].
-        const JUNCTION: f64 = 15.0;
         let motion = scene.motion(spot);
         let here = scene.viewpoint(spot);
         let there = Viewpoint { chain: self.chain, x: self.x, ..here };
         let way = way.max(LEAST);
         let has_reservation =
             |it: &Found| scene.has_reservation(it.spot, it.distance - f64::from(motion.length));
-        // Storage space beyond a junction is kept for others.
-        let section = StorageSection::at(&scene.network.junctions, self.chain, self.x);
-        let kept = scene.reservations.kept_on(section);
-        let takes_room = kept > 0.0 && self.x - f64::from(motion.length) < kept + JUNCTION;
-        let is_in_fork = self.x - f64::from(motion.length) < scene.network.chain(self.chain).fork_clearance;
-        !takes_room
+        let rear = self.x - f64::from(motion.length);
+        let is_in_fork = rear < scene.network.chain(self.chain).fork_clearance;
+        !scene.takes_kept_space(self.chain, self.x, rear)
             && !is_in_fork
             && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
             && !self.follower.as_ref().is_some_and(has_reservation)

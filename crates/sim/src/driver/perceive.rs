@@ -15,6 +15,7 @@ use crate::driver::beliefs::Beliefs;
 use crate::driver::window;
 use crate::route::waypoint::Waypoint;
 use crate::state::lane::{DriverState, Phase};
+use crate::state::vehicle::desired_speed;
 use crate::view::scene::{Scene, Spot, Viewpoint, nearer};
 use crate::view::sight::LaneSight;
 
@@ -92,8 +93,8 @@ impl<'s, 'a> Perception<'s, 'a> {
             let beside = window::beside(scene, spot, side)?;
             let there = scene.network.chain(beside.chain);
             // A long vehicle changes into a lane that is tight for it only if its route requires it.
-            let is_tight = from.is_long && there.is_tight_for_long && waypoint.changes == 0;
-            if is_tight || !there.takes(beside.across(from.x), from.is_long) {
+            let is_tight = from.class.is_long() && there.is_tight_for_long && waypoint.changes == 0;
+            if is_tight || !there.takes(beside.across(from.x), from.class) {
                 return None;
             }
             if scene.is_closed(beside.chain, beside.across(from.x)) {
@@ -298,7 +299,7 @@ pub(crate) fn lane_rule(scene: &Scene, spot: Spot) -> LaneRule {
         LaneUse::SlowSide => LaneRule::NoPassingThere,
         LaneUse::SlowSideIfSlower => {
             let limit = chain.limit(x);
-            let is_slower = driver.class.desired_speed(scene.style(spot), limit, &network.law) < limit;
+            let is_slower = desired_speed(driver.class, scene.style(spot), limit, &network.law) < limit;
             if is_slower { LaneRule::SlowSide } else { LaneRule::Free }
         }
     }

@@ -69,15 +69,14 @@ impl Window {
             return None;
         }
         let DriverState { goal, class, .. } = scene.driver(spot);
-        let (destination, is_long) = (goal.destination(), class.is_long());
-        let walk = scene.navigator.walk(scene.network, destination, spot.chain, 0.0).within(place);
+        let walk = scene.navigator.walk(scene.network, goal.destination(), spot.chain, 0.0).within(place);
         // For each side the window along the own chains that ends last so far.
         let mut runs = [[f64::NEG_INFINITY; 2]; 2];
         for Leg { chain, start, .. } in walk {
             let here = scene.network.chain(chain);
             for (side, run) in Side::BOTH.into_iter().zip(&mut runs) {
                 for stretch in here.stretches(side) {
-                    let [from, until] = scene.network.window(here, stretch, is_long).map(|it| start + it);
+                    let [from, until] = scene.network.window(here, stretch, *class).map(|it| start + it);
                     if from >= until {
                         continue;
                     }

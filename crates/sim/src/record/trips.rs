@@ -165,7 +165,8 @@ pub(crate) fn free_time(driver: &Outlook, from: Position) -> Option<f64> {
 
 /// Time from one station of `chain` to another [s].
 fn time_between(chain: &Chain, [from, to]: [f64; 2], driver: &Outlook) -> f64 {
-    let speed = |limit| driver.class.desired_speed(driver.style, limit, &driver.network.law);
+    let speed =
+        |limit| crate::state::vehicle::desired_speed(driver.class, driver.style, limit, &driver.network.law);
     let within = |start: f64, end: f64| (end.min(to) - start.max(from)).max(0.0);
     let lost = |it: &Bend| {
         let [slow, fast] = [driver.bend_speed(it), speed(chain.limit(it.start))];

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use laneweave_network::{ChainIndex, Crossing, LightIndex, Place, PlaceKind, Sign};
+use laneweave_network::{ChainIndex, Class, Crossing, LightIndex, Place, PlaceKind, Sign};
 
 use crate::junction::need::{LINE_TO_ZONE, SPARE_SPACE, Survey};
 use crate::junction::storage_section::StorageSection;
@@ -79,7 +79,7 @@ fn points(
             if at > until.get() {
                 return until.get();
             }
-            if !concerns(place, from.is_long) {
+            if !concerns(place, from.class) {
                 continue;
             }
             if visit(Point::of(place, base), at, chain).is_break() {
@@ -95,14 +95,17 @@ fn points(
     if end >= until.get() {
         return until.get();
     }
-    if last.is_lane_drop { end - last.length + last.driven_until(from.is_long) } else { f64::INFINITY }
+    if !last.ends_for.has(from.class) {
+        return f64::INFINITY;
+    }
+    end - last.length + last.driven_until(from.class.is_long())
 }
 
 /// Whether a place concerns vehicles of this kind, long or not.
-fn concerns(place: &Place, is_long: bool) -> bool {
+fn concerns(place: &Place, class: Class) -> bool {
     match place.what {
         PlaceKind::Sign(_) => true,
-        PlaceKind::Zone { touch, .. } => touch.concerns(is_long),
+        PlaceKind::Zone { touch, .. } => touch.concerns(class.is_long()),
     }
 }
 
@@ -253,7 +256,7 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
     (out.section, out.section_start) =
         (StorageSection::at(&scene.network.junctions, beyond.chain, clear - beyond.start), beyond.start);
     // A vehicle whose trip ends before the next place stands behind others that stop there.
-    let place = next_place(scene, beyond, clear, from.is_long) - ROOM_AT_A_STOP;
+    let place = next_place(scene, beyond, clear, from.class) - ROOM_AT_A_STOP;
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
     let arrival = applicant.time_to(out.extent);
@@ -293,9 +296,9 @@ pub(crate) fn stands_beyond(scene: &Scene, from: Viewpoint, survey: &Survey, spo
 }
 
 /// Distance to the next place on `leg` beyond `distance` where drivers may have to stop [m].
-fn next_place(scene: &Scene, leg: Leg, distance: f64, is_long: bool) -> f64 {
+fn next_place(scene: &Scene, leg: Leg, distance: f64, class: Class) -> f64 {
     let places = scene.network.junctions.on(leg.chain).places.iter();
-    let stops = places.filter(|it| concerns(it, is_long)).map(|it| leg.start + Point::of(it, 0.0).stop);
+    let stops = places.filter(|it| concerns(it, class)).map(|it| leg.start + Point::of(it, 0.0).stop);
     stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
 

@@ -1,6 +1,7 @@
-//! Class restrictions: lanes that a class of vehicles avoids, as too tight or too narrow, where there is another route.
+//! Class restrictions: lanes that a class of vehicles may not use, and lanes that it avoids, as too tight or too
+//! narrow, where there is another route.
 
-use laneweave_network::{Chain, ChainIndex, Network, Point, Polyline};
+use laneweave_network::{Chain, ChainIndex, Classes, Network, Point, Polyline};
 
 use crate::state::vehicle::{Class, Fleet};
 
@@ -12,40 +13,72 @@ const TIGHTEST_TURN: f64 = 8.9;
 /// turn.
 const ARM: f64 = 3.0;
 
-/// Chains that classes avoid.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The different restrictions of the classes. Classes with the same restriction share their routes.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ClassRestrictions {
-    /// The chains that long vehicles avoid; `None` if there are none, so that they drive where all others do.
-    of_long: Option<Vec<bool>>,
+    /// For each class its restriction.
+    of_class: [u8; Class::ALL.len()],
+    /// For each restriction the first class that has it.
+    classes: Vec<Class>,
+    /// The chains that long vehicles avoid; `None` if there are none.
+    tight: Option<Vec<bool>>,
+}
+
+impl Default for ClassRestrictions {
+    /// All classes drive where cars do.
+    fn default() -> ClassRestrictions {
+        ClassRestrictions { of_class: [0; Class::ALL.len()], classes: vec![Class::Car], tight: None }
+    }
 }
 
 impl ClassRestrictions {
-    /// The restrictions of the classes of `fleet` on `network`.
+    /// The restrictions of the classes on `network`. That no turn is tight for them counts for those of `fleet` only.
     pub(crate) fn of(network: &Network, fleet: &Fleet) -> ClassRestrictions {
-        let has_long = fleet.shares().iter().any(|(class, share)| class.is_long() && *share > 0.0);
-        if !has_long {
-            return ClassRestrictions::default();
-        }
-        let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&it.centre) < TIGHTEST_TURN;
-        let is_tight: Vec<bool> = network.chains.iter().map(is_tight).collect();
-        let differs = is_tight.contains(&true) || network.chains.iter().any(|it| it.is_narrow);
-        ClassRestrictions { of_long: differs.then_some(is_tight) }
+        let mut sets: Vec<Classes> = network.chains.iter().map(|it| it.classes).collect();
+        sets.sort_unstable();
+        sets.dedup();
+        let tight = fleet.classes().iter().any(Class::is_long).then(|| tight(network)).flatten();
+        let is_alike = |one: Class, other: Class| {
+            (tight.is_none() || one.is_long() == other.is_long())
+                && sets.iter().all(|set| set.has(one) == set.has(other))
+        };
+        let mut classes: Vec<Class> = Vec::new();
+        let of_class = Class::ALL.map(|class| {
+            let known = classes.iter().position(|it| is_alike(*it, class));
+            known.unwrap_or_else(|| {
+                classes.push(class);
+                classes.len() - 1
+            }) as u8
+        });
+        ClassRestrictions { of_class, classes, tight }
     }
 
-    /// Number of different restrictions, including the empty one.
+    /// Number of different restrictions.
     pub(crate) fn count(&self) -> usize {
-        1 + usize::from(self.of_long.is_some())
+        self.classes.len()
     }
 
-    /// The restriction of a class, from 0 on.
+    /// The restriction of a class, from 0 on. That of cars is 0.
     pub(crate) fn of_class(&self, class: Class) -> usize {
-        usize::from(self.of_long.is_some() && class.is_long())
+        usize::from(self.of_class[class as usize])
+    }
+
+    /// A class with `restriction`.
+    pub(crate) fn class(&self, restriction: usize) -> Class {
+        self.classes[restriction]
     }
 
     /// Whether vehicles with `restriction` avoid `chain`.
     pub(crate) fn avoids(&self, restriction: usize, chain: ChainIndex) -> bool {
-        restriction > 0 && self.of_long.as_ref().is_some_and(|it| it[chain.at()])
+        self.class(restriction).is_long() && self.tight.as_ref().is_some_and(|it| it[chain.at()])
     }
+}
+
+/// The chains that long vehicles avoid; `None` if they drive where all others do.
+fn tight(network: &Network) -> Option<Vec<bool>> {
+    let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&it.centre) < TIGHTEST_TURN;
+    let all: Vec<bool> = network.chains.iter().map(is_tight).collect();
+    (all.contains(&true) || network.chains.iter().any(|it| it.open != Chain::WIDE)).then_some(all)
 }
 
 /// The least radius of a line [m]. Each circle goes through a point of the line and through the points one arm before
@@ -123,8 +156,10 @@ mod tests {
         all.extend(turns.iter().zip(2..).map(|(it, id)| lanelet(id, turn(*it, 1.0), &[last])));
         all.push(lanelet(99, straight(100.0), &[]));
         let network = Network::new(all, DrivingSide::Right).unwrap();
-        let restrictions =
-            ClassRestrictions::of(&network, &Fleet { trucks: 0.2, buses: 0.2, motorcycles: 0.2 });
+        let restrictions = ClassRestrictions::of(
+            &network,
+            &Fleet { trucks: 0.2, buses: 0.2, motorcycles: 0.2, ..Fleet::default() },
+        );
         let navigator =
             Navigator::with_restrictions(&network, &[Place::Gate(network.exits[0].clone())], restrictions);
         let goal = navigator.seen_by(class, Some(0));

@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use laneweave_network::{ChainIndex, LaneletIndex, Network, Position, Side};
+use laneweave_network::{ChainIndex, Class, LaneletIndex, Network, Position, Side};
 
 use crate::route::navigate::Navigator;
 use crate::route::waypoint::Waypoint;
@@ -356,7 +356,8 @@ impl Navigator {
     }
 }
 
-/// The number of lanes from a place to the next one on a `side` that is open, and the place there.
+/// The number of lanes from a place to the next one on a `side` that is open, and the place there. It is a lane for
+/// cars, or for all that may use the own one.
 fn next_lane(
     network: &Network,
     at: Position,
@@ -367,8 +368,10 @@ fn next_lane(
         let beside = network.chain(at.chain).beside(side, at.x)?;
         Some(Position::new(beside.chain, beside.across(at.x)))
     };
+    let classes = |at: &Position| network.chain(at.chain).classes;
+    let takes_cars = |it: &Position| classes(it).has(Class::Car) || classes(it).include(classes(&at));
     let mut lanes = std::iter::successors(beside(&at), beside).zip(1..);
-    lanes.find(|(at, _)| is_open(at)).map(|(at, count)| (count, at))
+    lanes.find(|(at, _)| takes_cars(at) && is_open(at)).map(|(at, count)| (count, at))
 }
 
 /// Whether two stretches have a part in common.

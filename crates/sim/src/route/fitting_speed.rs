@@ -11,7 +11,7 @@ use crate::route::navigate::Navigator;
 use crate::route::walk::Leg;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
-use crate::state::vehicle::Class;
+use crate::state::vehicle::{Class, desired_speed};
 
 /// A driver who looks ahead along its route.
 #[derive(Clone, Copy)]
@@ -36,7 +36,7 @@ impl Outlook<'_> {
     pub(crate) fn fitting_speed(&self, at: Position, way: f64) -> f64 {
         let Outlook { network, style, class, .. } = *self;
         let here = network.chain(at.chain);
-        let desired = class.desired_speed(style, here.limit(at.x), &network.law);
+        let desired = desired_speed(class, style, here.limit(at.x), &network.law);
         let reach = (way + desired * desired / (2.0 * style.manner.anticipating())).min(SIGHT);
         let is_clear = !here.has_slow_places && at.x + reach < here.length + here.slow_beyond;
         if is_clear || !style.manner.looks_ahead() { desired } else { self.slowed(at, way, reach, desired) }
@@ -74,7 +74,7 @@ impl Outlook<'_> {
             let from = if before.is_none() { at.x } else { 0.0 };
             if style.manner.comfortable_deceleration > 0.0 {
                 for limit in limits_from(chain, from, before.is_some()) {
-                    let speed = class.desired_speed(style, limit.speed, &network.law);
+                    let speed = desired_speed(class, style, limit.speed, &network.law);
                     slow(start + limit.start, speed * speed);
                 }
             }

@@ -7,7 +7,7 @@
 //! * `disutility.rs` turns and lights on a route; `fitting_speed.rs` the desired speed before and in bends and lower
 //!   limits
 //! * `links.rs`, `guidance.rs` and `renew_routes.rs` measured travel times, and the routes planned with them
-//! * `class_restrictions.rs` which lanes long vehicles avoid; `closures.rs` which lanelets users closed
+//! * `class_restrictions.rs` which lanes a class may not use, or avoids; `closures.rs` which lanelets users closed
 
 pub(crate) mod class_restrictions;
 pub(crate) mod closures;
@@ -18,9 +18,11 @@ pub(crate) mod links;
 pub(crate) mod navigate;
 pub(crate) mod onward;
 pub(crate) mod place;
+mod reachable;
 pub(crate) mod renew_routes;
 pub(crate) mod ring_lanes;
 pub(crate) mod roads;
 pub(crate) mod walk;
+mod wander;
 pub(crate) mod waypoint;
 pub(crate) mod ways;

@@ -17,7 +17,7 @@ use crate::route::place::{InnerPlace, Place};
 use crate::route::renew_routes::is_planned;
 use crate::route::walk::Walk;
 use crate::route::waypoint::Waypoint;
-use crate::route::ways::{Into, Planner, beside_into, wander};
+use crate::route::ways::{Into, Planner, beside_into};
 use crate::state::goal::{Destination, Goal, TripEnd};
 use crate::state::vehicle::Class;
 
@@ -31,6 +31,8 @@ pub struct Navigator {
     pub(super) onward: Onward,
     /// Number of tables of each class restriction.
     pub(super) of_restriction: usize,
+    /// How many of the last destinations are stops of lines.
+    pub(super) stops: usize,
     /// For each table of a usual route, the table with the newest recommendation; empty without guidance.
     pub(super) recommended: Vec<u16>,
     pub(super) links: Links,
@@ -49,8 +51,6 @@ impl Navigator {
     /// Ways to one destination: the usual route, and two more. One of these is recommended, while drivers may still use
     /// the other.
     pub(crate) const WAYS: usize = 3;
-    /// No trip inside the map is shorter than this [m], ours.
-    const SHORTEST_TRIP: f64 = 100.0;
 
     /// Plans all routes to the exits of `network`.
     pub fn new(network: &Network) -> Navigator {
@@ -73,6 +73,7 @@ impl Navigator {
             tables: Vec::new(),
             onward: Onward::default(),
             of_restriction: destinations.len() + 1,
+            stops: 0,
             recommended: Vec::new(),
             links: Links::default(),
             measurements: 0,
@@ -89,10 +90,22 @@ impl Navigator {
                 navigator.end_trips(place, navigator.tables.len());
                 navigator.tables.push(table);
             }
-            navigator.tables.push(wander(network));
+            let table = navigator.planner(network, restriction).wander();
+            navigator.tables.push(table);
         }
         navigator.look_onward(network);
         navigator
+    }
+
+    /// The same, where so many of the last destinations are stops of lines: no driver chooses one.
+    #[must_use]
+    pub(crate) fn with_stops(self, stops: usize) -> Navigator {
+        Navigator { stops, ..self }
+    }
+
+    /// Number of destinations that drivers choose.
+    pub(super) fn chosen(&self) -> usize {
+        self.of_restriction - 1 - self.stops
     }
 
     /// Stores again the next chain on every route of all tables.
@@ -220,6 +233,17 @@ impl Navigator {
         Walk::new(network, &self.onward, self.table(destination), chain, start)
     }
 
+    /// The first table of each class restriction.
+    pub(crate) fn restrictions(&self) -> impl Iterator<Item = u16> {
+        let of_restriction = self.of_restriction;
+        (0..self.restrictions.count()).map(move |it| (it * of_restriction) as u16)
+    }
+
+    /// The class restriction of `class`.
+    pub(crate) fn restriction_of(&self, class: Class) -> usize {
+        self.restrictions.of_class(class)
+    }
+
     /// A destination with the restriction of `class`.
     pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
         let number = usize::from(destination?) % self.of_restriction;
@@ -227,7 +251,7 @@ impl Navigator {
     }
 
     /// The class restriction of a table.
-    fn restriction(&self, table: u16) -> usize {
+    pub(super) fn restriction(&self, table: u16) -> usize {
         usize::from(table) / self.of_restriction % self.restrictions.count()
     }
 
@@ -314,67 +338,12 @@ impl Navigator {
     /// The route to `destination` over the end of `chain`.
     #[inline(never)]
     fn detour(&self, network: &Network, destination: Destination, chain: ChainIndex) -> Waypoint {
-        let here = network.chain(chain);
-        let onward = here.following.iter().map(|it| (*it, self.waypoint(destination, *it)));
-        let best = onward.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
-        let possible = best.filter(|(_, it)| it.leads_there());
         let restriction = destination.map_or(0, |it| self.restriction(it));
         let planner = self.planner(network, restriction);
+        let onward = planner.onward(chain).map(|it| (it, self.waypoint(destination, it)));
+        let best = onward.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
+        let possible = best.filter(|(_, it)| it.leads_there());
         possible.map_or(Waypoint::NOWHERE, |(next, waypoint)| planner.before(chain, next, waypoint))
-    }
-
-    /// The destinations that can be reached from `x` on `chain`, with their free travel times [s].
-    pub fn reachable(&self, chain: ChainIndex, x: f64) -> impl Iterator<Item = (Destination, f64)> {
-        self.reachable_in(0, chain, x)
-    }
-
-    fn reachable_in(
-        &self,
-        restriction: usize,
-        chain: ChainIndex,
-        x: f64,
-    ) -> impl Iterator<Item = (Destination, f64)> {
-        let first = restriction * self.of_restriction;
-        let tables = self.tables[first..].iter().zip(first..).take(self.of_restriction - 1);
-        tables.filter_map(move |(table, number)| {
-            let waypoint = &table[chain.at()];
-            waypoint.leads_on(x).then_some((Some(number as u16), waypoint.time))
-        })
-    }
-
-    /// The destination of least time that can be reached from `x` on `chain`, also over its end, for a driver with the
-    /// old destination `before`. `None` if there is none: the driver then follows the road.
-    pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
-        let first = before.map_or(0, |it| self.restriction(it)) * self.of_restriction;
-        let all = (first..first + self.of_restriction - 1).map(|it| Some(it as u16));
-        let reachable = all.filter_map(|it| {
-            let waypoint = self.waypoint_from(network, it, chain, x);
-            waypoint.leads_on(x).then_some((it, waypoint.time))
-        });
-        reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
-    }
-
-    /// The destination of least time to which the usual route leads from `x` on `chain`, for a driver with the old
-    /// destination `before`.
-    pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
-        let restriction = before.map_or(0, |it| self.restriction(it));
-        let reachable = self.reachable_in(restriction, chain, x);
-        reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
-    }
-
-    /// Whether a destination can be reached from `place`. From a trip end inside the map, it must also be far enough.
-    pub(crate) fn leads(&self, network: &Network, place: &Place, destination: u16) -> bool {
-        match place {
-            Place::Gate(gate) => {
-                let waypoint = |chain: &ChainIndex| self.waypoint(Some(destination), *chain);
-                gate.chains.iter().any(|chain| waypoint(chain).leads_there())
-            }
-            Place::Inside(InnerPlace { chain, station, .. }) => {
-                let waypoint = self.waypoint_from(network, Some(destination), *chain, *station);
-                let distance = waypoint.distance - station;
-                waypoint.leads_there() && distance >= Navigator::SHORTEST_TRIP
-            }
-        }
     }
 
     /// The trip ends on `chain`.

@@ -1,6 +1,6 @@
 //! Places where trips start and end: gates at the edge of the map, and trip ends inside the map.
 
-use laneweave_network::{ChainIndex, Gate};
+use laneweave_network::{ChainIndex, Class, Gate, Network};
 
 /// Where trips start or end.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +39,17 @@ impl Place {
             Place::Gate(gate) => gate.id,
             Place::Inside(inner) => inner.id,
         }
+    }
+
+    /// Its lanes that cars may use.
+    pub fn for_cars(&self, network: &Network) -> impl Iterator<Item = ChainIndex> {
+        let chains = self.chains().iter().copied();
+        chains.filter(|it| network.chain(*it).classes.has(Class::Car))
+    }
+
+    /// The number of its lanes that cars may use.
+    pub fn lanes(&self, network: &Network) -> usize {
+        self.for_cars(network).count()
     }
 
     /// Its lanes.

@@ -16,7 +16,6 @@ use crate::state::clock::Clock;
 use crate::state::driver_parameters::DriverParameters;
 use crate::state::lane::{DriverState, Lane};
 use crate::state::random::Random;
-use crate::state::vehicle::Fleet;
 
 /// What a step only reads, except for the routes of guidance: roads, driver parameters and random numbers.
 pub(crate) struct Roads {
@@ -31,16 +30,17 @@ pub(crate) struct Roads {
 }
 
 impl Roads {
-    /// The roads of `network`, with routes to `destinations` for the classes of `fleet`, without guidance.
+    /// The roads of `network`, with routes to `destinations`, the last ones of which are `stops`, for classes with
+    /// these `restrictions`, without guidance.
     pub(crate) fn new(
         network: Arc<Network>,
         driver_parameters: Vec<Style>,
-        destinations: &[Place],
-        fleet: &Fleet,
+        (destinations, stops): (&[Place], usize),
+        restrictions: ClassRestrictions,
         random: Random,
     ) -> Roads {
-        let restrictions = ClassRestrictions::of(&network, fleet);
         let navigator = Navigator::with_restrictions(&network, destinations, restrictions);
+        let navigator = navigator.with_stops(stops);
         let driver_parameters = DriverParameters::new(driver_parameters);
         Roads { network, navigator, driver_parameters, random, guidance: None, ground: OnceLock::new() }
     }

@@ -4,7 +4,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use laneweave_network::{Beside, Chain, ChainIndex, Network, Position, Side};
+use laneweave_network::{Beside, Chain, ChainIndex, Class, Network, Position, Side};
 
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::disutility::Disutility;
@@ -35,6 +35,24 @@ impl Planner<'_> {
     /// Cost of a missed change, ours: once around the block [s].
     const MISSED: f64 = 120.0;
 
+    /// A class with its restriction.
+    pub(super) fn class(&self) -> Class {
+        self.restrictions.class(self.restriction)
+    }
+
+    /// Whether a route may lead from the end of `chain` to `next`: onto lanes that its class may use, and along others
+    /// only for who is on one.
+    fn may_follow(&self, chain: ChainIndex, next: ChainIndex) -> bool {
+        let is_open = |it: ChainIndex| self.network.chain(it).classes.has(self.class());
+        is_open(next) || !is_open(chain)
+    }
+
+    /// The chains onto which a route may lead from the end of `chain`.
+    pub(crate) fn onward(&self, chain: ChainIndex) -> impl Iterator<Item = ChainIndex> {
+        let following = self.network.chain(chain).following.iter().copied();
+        following.filter(move |it| self.may_follow(chain, *it))
+    }
+
     /// Time along `chain` from its start to `until` [s].
     fn time(&self, chain: ChainIndex, until: f64) -> f64 {
         if self.links.are_free() {
@@ -62,7 +80,7 @@ impl Planner<'_> {
         let here = self.network.chain(chain);
         let leading =
             Side::BOTH.into_iter().flat_map(|side| here.stretches(side)).filter(|it| it.chain == to);
-        let windows = leading.map(|it| self.network.window(here, it, self.restriction > 0));
+        let windows = leading.map(|it| self.network.window(here, it, self.class()));
         windows.map(|[start, end]| (end.min(last_place) - start).max(0.0)).sum()
     }
 
@@ -101,14 +119,11 @@ impl Planner<'_> {
             search.spread(self, Room::Half);
         }
         let mut table = search.table;
-        let chains = &self.network.chains;
-        for index in 0..chains.len() {
+        for index in 0..table.len() {
             if table[index].changes > 0 || table[index].end.is_finite() {
-                let best = chains[index]
-                    .following
-                    .iter()
-                    .min_by(|a, b| table[a.at()].cost().total_cmp(&table[b.at()].cost()));
-                table[index].next = best.copied();
+                let onward = self.onward(ChainIndex(index as u32));
+                table[index].next =
+                    onward.min_by(|a, b| table[a.at()].cost().total_cmp(&table[b.at()].cost()));
             }
         }
         table
@@ -161,7 +176,7 @@ impl Planner<'_> {
             changes: onward.changes + 1,
             via: to,
             last_place,
-            next: self.network.chain(chain).following.first().copied(),
+            next: self.onward(chain).next(),
             time: onward.time
                 + self.lag(chain, stretch)
                 + Planner::missed_turn_penalty(self.room_to_change(chain, to, last_place)),
@@ -204,8 +219,8 @@ impl Planner<'_> {
             let it = self.network.chain(chain);
             let Waypoint { changes, via, .. } = table[chain.at()];
             let goes_over_end = via != chain && changes == table[via.at()].changes;
-            let onward = it.following.iter().map(|next| match next {
-                next if goes_over_end && *next == via => alternatives[next.at()],
+            let onward = self.onward(chain).map(|next| match next {
+                next if goes_over_end && next == via => alternatives[next.at()],
                 next => {
                     let Waypoint { time, disutility, .. } = best.unwrap_or(table)[next.at()];
                     (time, disutility)
@@ -250,7 +265,9 @@ impl Search {
             open: BinaryHeap::new(),
             is_settled: vec![false; chains],
         };
-        for index in place.chains() {
+        for index in
+            place.chains().iter().filter(|it| planner.network.chain(**it).classes.has(planner.class()))
+        {
             search.offer(planner.network, *index, planner.goal(place, *index));
         }
         search
@@ -282,7 +299,8 @@ impl Search {
                 continue;
             }
             let ahead = changed_to(&self.table, index);
-            for back in &network.chain(index).previous {
+            let previous = network.chain(index).previous.iter();
+            for back in previous.filter(|back| planner.may_follow(**back, index)) {
                 let waypoint = planner.before(*back, index, &here);
                 let time = waypoint.time + planner.delay(*back);
                 self.offer(network, *back, Waypoint { time, ..waypoint });
@@ -296,7 +314,7 @@ impl Search {
                 let chain = network.chain(from);
                 let last = stretches.iter().rev().find_map(|(_, side, number)| {
                     let stretch = &chain.stretches(*side)[*number];
-                    let window = network.window(chain, stretch, planner.restriction > 0);
+                    let window = network.window(chain, stretch, planner.class());
                     let last_place = Planner::last_place(stretch, window, &here, room);
                     are_short |= last_place <= window[0] && window[0] < window[1];
                     (last_place > window[0]).then_some((stretch, last_place))
@@ -374,26 +392,6 @@ pub(crate) fn beside_into(network: &Network) -> Vec<Into> {
         }
     }
     into
-}
-
-/// Waypoints for drivers without a destination: they take the first following chain, and leave lanes that end.
-pub(crate) fn wander(network: &Network) -> Vec<Waypoint> {
-    let on = |chain: &Chain| Waypoint {
-        changes: 0,
-        last_place: f64::INFINITY,
-        next: chain.following.first().copied(),
-        time: 0.0,
-        ..Waypoint::NOWHERE
-    };
-    let mut table: Vec<Waypoint> = network.chains.iter().map(on).collect();
-    for index in &network.lane_drops {
-        let chain = network.chain(*index);
-        let until = chain.driven_until(true);
-        let ends = |side: Side| chain.stretches(side).last().map(|it| it.end.min(until));
-        let last_place = Side::BOTH.into_iter().filter_map(ends).reduce(f64::max).unwrap_or(chain.length);
-        table[index.at()] = Waypoint { changes: 1, last_place, ..table[index.at()] };
-    }
-    table
 }
 
 #[cfg(test)]

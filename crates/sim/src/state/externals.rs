@@ -29,6 +29,26 @@ pub(crate) enum Kind {
     Recorded,
     /// No vehicle, but something that stands on the road.
     Obstacle,
+    /// A vehicle of a line. Its driver drives it, except that it serves stops.
+    Line(Service),
+}
+
+impl Kind {
+    /// The same, if a user drives it: a vehicle of a line leaves its line.
+    pub(crate) fn driven(self) -> Kind {
+        if let Kind::Line(_) = self { Kind::Driven } else { self }
+    }
+}
+
+/// How far a vehicle of a line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Service {
+    /// Number of its line.
+    pub(crate) line: u16,
+    /// Stops that it has behind it.
+    pub(crate) stops: u16,
+    /// The step up to which it rests at the next one.
+    pub(crate) rests_until: Option<u32>,
 }
 
 /// A vehicle that a user drives, or something that is moved or stands as one.

@@ -1,26 +1,11 @@
-//! Classes of vehicles.
+//! The vehicles of the demand.
 
 use laneweave_models::Style;
 use laneweave_network::RoadLaw;
-use serde::{Deserialize, Serialize};
+pub(crate) use laneweave_network::{Class, Classes};
 
 /// No vehicle is longer than this [m].
 pub(crate) const LONGEST: f64 = 12.0;
-
-/// A class of vehicles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[repr(u8)]
-pub enum Class {
-    /// A passenger car.
-    Car,
-    /// A heavy truck.
-    Truck,
-    /// A city bus.
-    Bus,
-    /// A motorcycle.
-    Motorcycle,
-}
 
 /// Shares of the classes; the remaining vehicles are cars.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,6 +16,10 @@ pub struct Fleet {
     pub buses: f64,
     /// Share of motorcycles.
     pub motorcycles: f64,
+    /// Share of taxis.
+    pub taxis: f64,
+    /// Share of vehicles of emergency services.
+    pub emergency: f64,
 }
 
 impl Fleet {
@@ -40,77 +29,67 @@ impl Fleet {
     }
 
     /// Each class with its share.
-    pub fn shares(&self) -> [(Class, f64); 4] {
+    pub fn shares(&self) -> [(Class, f64); Class::ALL.len()] {
         /// A sum of shares that exceeds 1 by no more than this does so by rounding.
         const ROUNDING: f64 = 1e-9;
-        let Fleet { trucks, buses, motorcycles } = *self;
-        let cars = 1.0 - (trucks + buses + motorcycles);
+        let Fleet { trucks, buses, motorcycles, taxis, emergency } = *self;
+        let cars = 1.0 - (trucks + buses + motorcycles + taxis + emergency);
         let cars = if cars.abs() < ROUNDING { 0.0 } else { cars };
-        let others = [(Class::Truck, trucks), (Class::Bus, buses), (Class::Motorcycle, motorcycles)];
-        [(Class::Car, cars), others[0], others[1], others[2]]
+        Class::ALL.map(|class| {
+            let share = match class {
+                Class::Car => cars,
+                Class::Truck => trucks,
+                Class::Bus => buses,
+                Class::Motorcycle => motorcycles,
+                Class::Taxi => taxis,
+                Class::Emergency => emergency,
+            };
+            (class, share)
+        })
     }
 
-    /// The class for a uniform random number.
-    pub(crate) fn class(&self, uniform: f64) -> Class {
-        let mut at = uniform;
-        let others = &self.shares()[1..];
-        let drawn = others.iter().find(|(_, share)| {
+    /// The classes that it has.
+    pub(crate) fn classes(&self) -> Classes {
+        self.shares().into_iter().filter(|it| it.1 > 0.0).map(|it| it.0).collect()
+    }
+
+    /// The class for a uniform random number, drawn among those of `possible` in proportion to their shares; a car
+    /// where it has none of these.
+    pub(crate) fn class(&self, uniform: f64, possible: Classes) -> Class {
+        let shares = self.shares();
+        let impossible: f64 = shares.iter().filter(|it| !possible.has(it.0)).map(|it| it.1).sum();
+        let mut at = uniform * (1.0 - impossible);
+        let others = shares[1..].iter().filter(|it| possible.has(it.0) && it.1 > 0.0);
+        let drawn = others.clone().find(|(_, share)| {
             at -= share;
             at < 0.0
         });
-        drawn.map_or(Class::Car, |(class, _)| *class)
+        let last = || if possible.has(Class::Car) { None } else { others.clone().next_back() };
+        drawn.or_else(last).map_or(Class::Car, |(class, _)| *class)
     }
 }
 
-/// What the vehicles of a class have in common. The numbers are ours, for usual European vehicles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// Its name in tables.
-    pub name: &'static str,
-    /// Length [m].
-    pub length: f64,
-    /// Width [m].
-    pub width: f64,
-    /// Maximum acceleration [m/s²].
-    pub strength: f64,
+/// Desired speed [m/s] of a driver of `style` in a vehicle of `class` under this `law` where the limit of the road is
+/// `limit` [m/s].
+#[inline]
+pub fn desired_speed(class: Class, style: &Style, limit: f64, law: &RoadLaw) -> f64 {
+    class.allowed(limit, law) * style.speed_factor
 }
 
-impl Class {
-    /// All of them, in their order.
-    pub const ALL: [Class; 4] = [Class::Car, Class::Truck, Class::Bus, Class::Motorcycle];
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    /// What the vehicles of this class have in common.
-    #[inline]
-    pub fn body(self) -> &'static Body {
-        match self {
-            Class::Car => &Body { name: "car", length: 4.5, width: 1.8, strength: 3.0 },
-            Class::Truck => &Body { name: "truck", length: 12.0, width: 2.5, strength: 1.0 },
-            Class::Bus => &Body { name: "bus", length: 12.0, width: 2.55, strength: 1.2 },
-            Class::Motorcycle => &Body { name: "motorcycle", length: 2.2, width: 0.8, strength: 5.0 },
-        }
-    }
-
-    /// Whether its vehicles are long: they keep to the slow side, and avoid tight turns.
-    #[inline]
-    pub fn is_long(self) -> bool {
-        matches!(self, Class::Truck | Class::Bus)
-    }
-
-    /// Maximum acceleration [m/s²].
-    #[inline]
-    pub fn strength(self) -> f64 {
-        self.body().strength
-    }
-
-    /// Desired speed [m/s] of a driver of `style` under this `law` where the limit of the road is `limit` [m/s].
-    #[inline]
-    pub fn desired_speed(self, style: &Style, limit: f64, law: &RoadLaw) -> f64 {
-        self.allowed(limit, law) * style.speed_factor
-    }
-
-    /// The speed [m/s] that `law` allows it where the limit of the road is `limit` [m/s].
-    #[inline]
-    pub fn allowed(self, limit: f64, law: &RoadLaw) -> f64 {
-        if self.is_long() { limit.min(law.limit_of_long) } else { limit }
+    #[test]
+    fn a_class_is_drawn_among_the_possible_ones_in_proportion_to_their_shares() {
+        let fleet = Fleet { trucks: 0.2, buses: 0.1, ..Fleet::default() };
+        let [buses_and_trucks, cars] = [Classes::from_iter([Class::Truck, Class::Bus]), Classes::ALL];
+        let drawn = |possible| (0..300).map(move |it| fleet.class((f64::from(it) + 0.5) / 300.0, possible));
+        let count = |possible, class| drawn(possible).filter(|it| *it == class).count();
+        assert_eq!([Class::Truck, Class::Bus, Class::Car].map(|it| count(cars, it)), [60, 30, 210]);
+        assert_eq!(
+            [Class::Truck, Class::Bus, Class::Car].map(|it| count(buses_and_trucks, it)),
+            [200, 100, 0]
+        );
     }
 }

@@ -8,7 +8,7 @@ use crate::record::log::Log;
 use crate::route::roads::Roads;
 use crate::state::command::{Command, Commanded};
 use crate::state::control::Control;
-use crate::state::externals::{Body, External};
+use crate::state::externals::{Body, External, Kind, Service};
 use crate::state::goal::Destination;
 use crate::state::lane::{Counterpart, DriverState, Entry, Kinematics, LaneChangeState, VehicleId};
 use crate::state::traffic::Traffic;
@@ -112,7 +112,7 @@ impl CarryingOut<'_> {
             }
         };
         let was_on_its_own_path = external.body.is_some();
-        external.control = control;
+        (external.control, external.kind) = (control, external.kind.driven());
         match control {
             Control::Pose { .. } if external.body.is_some() => {}
             Control::Pose { .. } => external.body = self.body(id),
@@ -131,6 +131,17 @@ impl CarryingOut<'_> {
         }
         if control.is_external() {
             self.traffic.externals_mut().add(external);
+        }
+    }
+
+    /// Lets a vehicle of a line drive in this way, as its `service` is.
+    pub(super) fn direct(&mut self, id: VehicleId, service: Service, control: Control) {
+        let Some(external) = self.traffic.externals_mut().of_mut(id) else { return };
+        let held_before = external.control.holds_still();
+        (external.kind, external.control) = (Kind::Line(service), control);
+        // Who waits behind one that rests is not stuck.
+        if control.holds_still() != held_before {
+            self.change(id, |_, driver, _, _| driver.is_external = control.holds_still());
         }
     }
 

@@ -17,6 +17,7 @@ use crate::route::renew_routes::Guided;
 use crate::route::roads::Roads;
 use crate::state::commands::Commands;
 use crate::state::driver_parameters::{DriverParameters, ParameterChanges};
+use crate::state::externals::{Kind, Service};
 use crate::state::goal::Destination;
 use crate::state::traffic::Traffic;
 use crate::step::seal::{sealed, unsealed};
@@ -119,10 +120,18 @@ impl World {
         };
         let waits = |it: &(Vec<Waiting>, f64)| it.0.iter().all(|it| it.since <= clock.step);
         let externals = traffic.externals().all().iter();
+        let lines = &arrivals.demand().lines;
+        let is_served = |it: Service| {
+            lines.get(usize::from(it.line)).is_some_and(|line| usize::from(it.stops) <= line.stops.len())
+        };
+        let mut services = externals
+            .clone()
+            .filter_map(|it| if let Kind::Line(service) = it.kind { Some(service) } else { None });
         let off_road = externals.filter_map(|it| Some(it.off_road()?.motion.id));
         let wrong = [
             (clock.dt != own.clock().dt, "steps"),
             (!traffic.fits(chains, driver_parameters, is_known), "lanes"),
+            (!services.all(is_served), "lines"),
             (kept.len() != chains || !kept.iter().all(waits), "waiting drivers"),
             (!junctions.fits(own_junctions, clock), "junctions"),
             (!backlog.fits(arrivals.backlog(), clock, driver_parameters, is_known), "arrivals"),

@@ -39,7 +39,7 @@ impl World {
         let World { roads, traffic, arrivals, log, .. } = self;
         let id = arrivals.new_inserted();
         let now = traffic.clock().time();
-        put(roads, traffic, log, placement, Named { id, arrived: now });
+        put(roads, traffic, log, placement, Named { id, arrived: now, line: None });
         Ok(id)
     }
 

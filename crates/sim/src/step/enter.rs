@@ -76,7 +76,7 @@ impl Entering<'_> {
         if let Some(vehicle) = admitted
             && let Some(arrival) = queue.waiting.remove(place)
         {
-            let named = Named { id: arrival.id, arrived: arrival.time };
+            let named = Named { id: arrival.id, arrived: arrival.time, line: arrival.line };
             put(self.roads, self.traffic, self.log, vehicle, named);
             if matches!(needs, Entry::Reserved { .. }) {
                 reserve(self.traffic, self.junctions.reservations_mut(), queue, &arrival, survey);

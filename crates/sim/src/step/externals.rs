@@ -32,7 +32,7 @@ pub(crate) fn hand_out_controls(traffic: &Traffic, work: &mut Work) {
         let mut tell = |chain: ChainIndex, index: usize, told| {
             work.plans[chain.at()].controls.push(Controlled { index: index as u32, told, gives_way });
         };
-        if external.off_road().is_some() {
+        if external.off_road().is_some() || !control.is_external() {
             continue;
         }
         let lane = traffic.lane(at.chain);

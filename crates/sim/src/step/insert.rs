@@ -2,7 +2,7 @@
 
 use laneweave_models::braking::is_secure;
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, Position};
+use laneweave_network::{ChainIndex, Class, Position};
 
 use crate::driver::perceive::driver_of;
 use crate::route::closures::Standing;
@@ -37,7 +37,12 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
             format!("its rear bumper would be before the beginning of the lane; choose {length} m or more");
         return Err(refused(why));
     }
-    if !network.chain(chain).takes(x, class.is_long()) {
+    let classes = network.chain(chain).classes;
+    if !classes.has(*class) {
+        let why = format!("the lane is for {} only; choose another lane, or another class", classes.names());
+        return Err(refused(why));
+    }
+    if !network.chain(chain).takes(x, *class) {
         return Err(refused("the lane is too narrow for it there; choose another lane".into()));
     }
     if navigator.closures().closed().contains(&index) {
@@ -62,7 +67,7 @@ pub(super) fn check_place(world: &World, vehicle: &NewVehicle) -> Result<Placeme
         ));
     }
     let placement = Placement { chain, x, speed: *speed_mps, class: *class, parameters, destination };
-    let body = Body { chain, x, length, speed: *speed_mps, destination, is_long: class.is_long() };
+    let body = Body { chain, x, length, speed: *speed_mps, destination, class: *class };
     match in_the_way(world, &body) {
         Some(other) => Err(refused(format!(
             "vehicle {other} is too near; choose another place, or a speed nearer to the traffic's"
@@ -81,7 +86,7 @@ pub(super) struct Body {
     /// Speed [m/s].
     pub(super) speed: f64,
     pub(super) destination: Destination,
-    pub(super) is_long: bool,
+    pub(super) class: Class,
 }
 
 /// The vehicle that could not stay clear of `body`, or of which that one could not stay clear.
@@ -92,8 +97,8 @@ pub(super) fn in_the_way(world: &World, body: &Body) -> Option<VehicleId> {
 impl Body {
     /// What somebody would see who is in its lane.
     fn viewpoint(&self) -> Viewpoint {
-        let Body { chain, x, destination, is_long, .. } = *self;
-        Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, is_long }
+        let Body { chain, x, destination, class, .. } = *self;
+        Viewpoint { chain, x, ahead: 0, id: VehicleId::MAX, destination, class }
     }
 }
 
@@ -125,8 +130,15 @@ impl World {
         let Ok(lanelet) = self.lanelet_with(vehicle.lanelet) else { return true };
         let Position { chain, x: start } = self.roads.network().start_of(lanelet);
         let length = vehicle.class.body().length + Standing::ROOM_BEFORE;
-        let (destination, is_long) = (None, vehicle.class.is_long());
-        let body = Body { chain, x: start + vehicle.position_m, length, speed: 0.0, destination, is_long };
+        let destination = None;
+        let body = Body {
+            chain,
+            x: start + vehicle.position_m,
+            length,
+            speed: 0.0,
+            destination,
+            class: vehicle.class,
+        };
         in_the_way(self, &body).is_none()
     }
 }

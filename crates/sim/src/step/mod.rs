@@ -46,6 +46,7 @@ pub(crate) mod reserve_on_entering;
 pub(crate) mod resolve;
 pub(crate) mod seal;
 pub(crate) mod see_standing;
+mod serve_stops;
 pub(crate) mod settings;
 pub(crate) mod show_rears;
 pub(crate) mod switch_lights;

@@ -19,7 +19,7 @@ impl World {
         check_new(roads, arrivals.demand().destinations.len(), &vehicle)?;
         let id = arrivals.new_id();
         let now = traffic.clock().time();
-        put(roads, traffic, log, vehicle, Named { id, arrived: now });
+        put(roads, traffic, log, vehicle, Named { id, arrived: now, line: None });
         Ok(id)
     }
 }

@@ -122,8 +122,8 @@ impl World {
     fn near(&self, footprints: &[Footprint], behind: f64) -> Option<VehicleId> {
         footprints.iter().find_map(|it| {
             let length = it.to - it.from + behind;
-            let (speed, destination, is_long) = (0.0, None, false);
-            let body = insert::Body { chain: it.chain, x: it.to, length, speed, destination, is_long };
+            let (speed, destination, class) = (0.0, None, Class::Car);
+            let body = insert::Body { chain: it.chain, x: it.to, length, speed, destination, class };
             let ahead = ahead_in_the_way(self, &body).filter(|it| *it < FIRST_OBSTACLE);
             ahead.or_else(|| behind_in_the_way(self, &body)).filter(|it| *it < FIRST_OBSTACLE)
         })

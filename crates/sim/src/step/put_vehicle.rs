@@ -9,6 +9,8 @@ use crate::record::trips::free_time;
 use crate::route::fitting_speed::Outlook;
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
+use crate::state::control::Control;
+use crate::state::externals::{External, Kind, Service};
 use crate::state::lane::{DriverState, Entry, Kinematics, LaneChangeKind, LaneChangeState, Phase, VehicleId};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::state::setup::Placement;
@@ -21,6 +23,8 @@ pub(crate) struct Named {
     pub(crate) id: VehicleId,
     /// Time of its arrival [s].
     pub(crate) arrived: f64,
+    /// The line that it serves.
+    pub(crate) line: Option<u16>,
 }
 
 /// Places a vehicle on the road.
@@ -29,7 +33,7 @@ pub(crate) fn put(
     traffic: &mut Traffic,
     log: &mut Log,
     vehicle: Placement,
-    Named { id, arrived }: Named,
+    Named { id, arrived, line }: Named,
 ) {
     let Placement { chain, x, speed, class, parameters, destination } = vehicle;
     let (network, navigator, clock) = (roads.network(), roads.navigator(), traffic.clock());
@@ -37,7 +41,8 @@ pub(crate) fn put(
     let style = roads.style(parameters);
     let outlook = Outlook { network, navigator, style, class, destination };
     let at = Position::new(chain, x);
-    let free_time = free_time(&outlook, at);
+    // A vehicle of a line has its stops.
+    let free_time = if line.is_some() { None } else { free_time(&outlook, at) };
     log.begin_trip(id, free_time, || TripRecord {
         arrived,
         entered: clock.time(),
@@ -49,6 +54,10 @@ pub(crate) fn put(
         ..TripRecord::of(id, class, parameters)
     });
     traffic.enter(chain, entry(roads, clock, &vehicle, id));
+    if let Some(line) = line {
+        let kind = Kind::Line(Service { line, stops: 0, rests_until: None });
+        traffic.externals_mut().add(External { kind, ..External::new(id, Control::DRIVER, at) });
+    }
 }
 
 /// The entry of a new vehicle.

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network, Position};
+use laneweave_network::{ChainIndex, Classes, Network, Position};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::demand::Demand;
-use crate::demand::arrivals::Arrivals;
+use crate::demand::arrivals::{Arrivals, LineCount};
 use crate::demand::assignment::Assignment;
 use crate::demand::error::WorldError;
+use crate::demand::line::{Line, LineStop};
 use crate::driver::intention::{Intention, intention};
 use crate::driver::plan::Waiting;
 use crate::record::counters::Counters;
@@ -17,6 +18,7 @@ use crate::record::counts::Counts;
 use crate::record::events::Event;
 use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
+use crate::route::place::{InnerPlace, Place};
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
 use crate::state::externals::{External, Kind};
@@ -109,9 +111,44 @@ impl World {
         self.roads.navigator().leads(self.roads.network(), place, destination as u16)
     }
 
+    /// The classes of the demand that start at an origin: those that may use one of its lanes, and reach a destination
+    /// from it.
+    pub fn starting_at(&self, origin: usize) -> Classes {
+        self.arrivals.sources()[origin].possible()
+    }
+
     /// The counters of drivers, added over threads, with distances added over lanes.
     pub fn counters(&self) -> Counters {
         Counters { distance: self.work.plans.iter().map(|it| it.distance).sum(), ..self.work.counted() }
+    }
+
+    /// The first line of the demand, and the number of its stop, to which no route leads from the place before; the
+    /// number after the last stop is its destination.
+    pub fn line_without_a_route(&self) -> Option<(usize, usize)> {
+        let (demand, network, navigator) =
+            (self.arrivals.demand(), self.roads.network(), self.roads.navigator());
+        let leads = |line: &Line, number: usize| {
+            let Some(goal) = navigator.seen_by(line.class, Some(line.goal(number as u16))) else {
+                return false;
+            };
+            let before = number.checked_sub(1).and_then(|it| line.stops.get(it));
+            match before.map(|it| &demand.destinations[it.destination]) {
+                Some(Place::Inside(InnerPlace { chain, station, .. })) => {
+                    let x = (station - LineStop::MARGIN).max(0.0);
+                    navigator.waypoint_from(network, Some(goal), *chain, x).leads_there()
+                }
+                _ => navigator.leads_to(network, &demand.origins[line.origin].place, goal),
+            }
+        };
+        let legs = demand.lines.iter().enumerate();
+        let mut legs =
+            legs.flat_map(|(at, line)| (0..=line.stops.len()).map(move |number| (at, line, number)));
+        legs.find(|(_, line, number)| !leads(line, *number)).map(|(at, _, number)| (at, number))
+    }
+
+    /// What the vehicles of each line of the demand did.
+    pub fn lines(&self) -> &[LineCount] {
+        self.arrivals.lines()
     }
 
     /// The counts of the world.
@@ -122,7 +159,8 @@ impl World {
     /// Resets all counts at the end of the warm-up. Vehicles on the road count as entered.
     pub fn reset_counts(&mut self) {
         let on_road = self.on_road();
-        let World { roads, traffic, log, work, .. } = self;
+        let World { roads, traffic, arrivals, log, work, .. } = self;
+        arrivals.reset_stops();
         work.plans.iter_mut().for_each(|it| it.distance = 0.0);
         work.reset_counters(Counters::default());
         log.reset_counts(on_road);
@@ -207,7 +245,7 @@ impl World {
     /// The ids of the external vehicles, which users drive, in order.
     pub fn externals(&self) -> impl Iterator<Item = VehicleId> {
         let all = self.traffic.externals().all().iter();
-        all.filter(|it| it.kind != Kind::Obstacle).map(|it| it.id)
+        all.filter(|it| matches!(it.kind, Kind::Driven | Kind::Recorded)).map(|it| it.id)
     }
 
     /// The commands that were carried out in the last step, in their order.

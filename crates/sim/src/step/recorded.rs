@@ -135,7 +135,7 @@ impl World {
         let Some(number) = main_lane(&self.roads, &rectangle, &footprints, None) else { return Ok(*vehicle) };
         let Footprint { chain, to: x, .. } = footprints[number];
         let destination = self.roads.navigator().seen_by(class, None);
-        let body = Body { chain, x, length, speed: pose.speed, destination, is_long: class.is_long() };
+        let body = Body { chain, x, length, speed: pose.speed, destination, class };
         let Some(other) = in_the_way(self, &body) else { return Ok(*vehicle) };
         let last = most_behind.min(x - length);
         let behind = (1..).map(|it| f64::from(it) * APART).take_while(|it| *it <= last);

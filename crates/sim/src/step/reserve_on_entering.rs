@@ -48,7 +48,7 @@ pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival)
     let outlook = Outlook { network, navigator, style, class, destination };
     let desired = outlook.fitting_speed(Position::new(queue.chain, 0.0), 0.0);
     let x = queue.start.station() - WAITS_BEFORE;
-    let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, is_long: class.is_long() };
+    let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, class };
     Applicant { from, length: class.body().length, speed: desired, desired, style, reservation: None }
 }
 

@@ -63,7 +63,13 @@ impl Resolving<'_> {
                 let found = self.traffic.lane(chain).find(follower, x);
                 let sees_it = |index: &usize| {
                     let behind = Spot { chain, index: *index };
-                    self.has_seen(behind, since) && !self.scene().has_reservation(behind, f64::from(gap))
+                    let scene = self.scene();
+                    let motion = scene.motion(behind);
+                    // Who stands there keeps others from leaving a junction.
+                    let is_in_the_way = scene.takes_kept_space(chain, motion.x, motion.rear());
+                    self.has_seen(behind, since)
+                        && !scene.has_reservation(behind, f64::from(gap))
+                        && !is_in_the_way
                 };
                 if let Some(index) = found.filter(sees_it) {
                     let (_, driver, lane_change) = self.traffic.lane_mut(chain).entry_mut(index);

@@ -52,7 +52,7 @@ fn standing(traffic: &Traffic) -> Vec<Standing> {
     let longest = traffic.clock().steps(PATIENCE);
     let idle_for = |it: &External| if it.control.holds_still() { 1 } else { longest };
     let stands = |it: &External| match it.kind {
-        Kind::Driven => it.idle >= idle_for(it),
+        Kind::Driven | Kind::Line(_) => it.idle >= idle_for(it),
         Kind::Recorded => false,
         Kind::Obstacle => true,
     };

@@ -10,9 +10,11 @@ use crate::demand::arrivals::Arrivals;
 use crate::demand::error::WorldError;
 use crate::junction::state::JunctionState;
 use crate::record::log::Log;
+use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
 use crate::state::commands::Commands;
+use crate::state::goal::Goal;
 use crate::state::random::Random;
 use crate::state::setup::Setup;
 use crate::state::traffic::Traffic;
@@ -30,6 +32,7 @@ use crate::step::note_incidents::note_incidents;
 use crate::step::note_milestones::note_milestones;
 use crate::step::resolve::resolve;
 use crate::step::see_standing::see_standing;
+use crate::step::serve_stops::serve_stops;
 use crate::step::switch_lights::switch_lights;
 use crate::step::transfer::transfer;
 use crate::step::work::Work;
@@ -73,14 +76,14 @@ impl World {
         if destinations * chains > Navigator::MOST_WAYPOINTS {
             return Err(WorldError::Ways { destinations, chains });
         }
+        let restrictions = ClassRestrictions::of(&network, &demand.fleet);
+        let most = usize::from(Goal::NONE) / restrictions.count() - 1;
+        if destinations > most {
+            return Err(WorldError::Destinations(destinations, most));
+        }
         let traffic = Traffic::new(network.chains.len(), setup.step);
-        let roads = Roads::new(
-            network,
-            driver_parameters,
-            &demand.destinations,
-            &demand.fleet,
-            Random::new(setup.seed),
-        );
+        let ends = (&demand.destinations[..], demand.stops);
+        let roads = Roads::new(network, driver_parameters, ends, restrictions, Random::new(setup.seed));
         Ok(World {
             junctions: JunctionState::new(roads.network(), traffic.clock()),
             arrivals: Arrivals::new(&roads, demand),
@@ -138,7 +141,9 @@ impl World {
         log.begin_step();
         let commands = commands.begin_step();
         change_roads(roads, traffic, commands);
-        CarryingOut { roads, traffic, junctions, arrivals, log, index }.all(commands);
+        let mut carrying_out = CarryingOut { roads, traffic, junctions, arrivals, log, index };
+        carrying_out.all(commands);
+        serve_stops(&mut carrying_out);
         index.forget();
         hand_out_controls(traffic, work);
         // Overlaps are checked once a second; in an audit at every step.

@@ -3,11 +3,12 @@
 use laneweave_models::Style;
 use laneweave_models::change::SIGHT;
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, LightIndex, LightState, Network, Reach};
+use laneweave_network::{ChainIndex, Class, LightIndex, LightState, Network, Reach};
 
 use crate::junction::reservations::{Reservation, Reservations};
 use crate::junction::signals::Signals;
 use crate::junction::state::JunctionState;
+use crate::junction::storage_section::StorageSection;
 use crate::route::closures::ClosureAhead;
 use crate::route::fitting_speed::Outlook;
 use crate::route::navigate::Navigator;
@@ -62,8 +63,8 @@ pub struct Viewpoint {
     pub id: VehicleId,
     /// Its destination.
     pub destination: Destination,
-    /// Its vehicle is long.
-    pub is_long: bool,
+    /// The class of its vehicle.
+    pub class: Class,
 }
 
 /// A vehicle that was found, and its distance.
@@ -143,6 +144,16 @@ impl<'a> Scene<'a> {
         self.reservation(spot).is_some_and(|it| it.left() > distance)
     }
 
+    /// Whether a vehicle at `x` of a chain, with its rear bumper at `rear` [m], takes storage space beyond a junction
+    /// that is kept for others.
+    pub(crate) fn takes_kept_space(&self, chain: ChainIndex, x: f64, rear: f64) -> bool {
+        /// A junction may reach this far into a chain [m].
+        const JUNCTION: f64 = 15.0;
+        let section = StorageSection::at(&self.network.junctions, chain, x);
+        let kept = self.reservations.kept_on(section);
+        kept > 0.0 && rear < kept + JUNCTION
+    }
+
     /// The reservation of the vehicle at `spot`.
     #[inline]
     pub(crate) fn reservation(&self, spot: Spot) -> Option<&'a Reservation> {
@@ -170,10 +181,10 @@ impl<'a> Scene<'a> {
         &self.lanes[spot.chain.at()].lane_change_states()[spot.index]
     }
 
-    /// Whether a vehicle may change lanes to `chain` at `x` [m].
+    /// Whether a vehicle of `class` may change lanes to `chain` at `x` [m].
     #[inline]
-    pub(crate) fn takes(&self, chain: ChainIndex, x: f64, is_long: bool) -> bool {
-        self.network.chain(chain).takes(x, is_long) && !self.is_closed(chain, x)
+    pub(crate) fn takes(&self, chain: ChainIndex, x: f64, class: Class) -> bool {
+        self.network.chain(chain).takes(x, class) && !self.is_closed(chain, x)
     }
 
     /// Whether `chain` is closed at `x` [m]: by a user, or by something that stands there.
@@ -209,8 +220,8 @@ impl<'a> Scene<'a> {
     pub fn viewpoint(&self, spot: Spot) -> Viewpoint {
         let Kinematics { x, id, .. } = *self.motion(spot);
         let DriverState { goal, class, .. } = self.driver(spot);
-        let (destination, is_long) = (goal.destination(), class.is_long());
-        Viewpoint { chain: spot.chain, x, ahead: spot.index + 1, id, destination, is_long }
+        let (ahead, destination) = (spot.index + 1, goal.destination());
+        Viewpoint { chain: spot.chain, x, ahead, id, destination, class: *class }
     }
 
     /// The viewpoint of the same vehicle at `x` on another chain.

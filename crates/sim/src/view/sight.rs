@@ -98,7 +98,7 @@ impl Scene<'_> {
         if end >= view.sight {
             return window_ahead;
         }
-        if self.network.chain(walk.at()).is_lane_drop {
+        if self.network.chain(walk.at()).ends_for.has(from.class) {
             let end = Ahead::standing(end);
             view.ahead = view.ahead.or(Some(end));
             view.anticipated_speed = view.anticipated_speed.min(anticipated_speed(end, desired));
@@ -130,7 +130,7 @@ impl Scene<'_> {
                 }
                 PlaceKind::Zone { crossing, touch, .. } => {
                     view.line = view.line.filter(|line| at - line <= LINE_TO_ZONE);
-                    touch.concerns(from.is_long) && self.is_occupied(crossing, from.id)
+                    touch.concerns(from.class.is_long()) && self.is_occupied(crossing, from.id)
                 }
             };
             if let Some(line) = view.line.filter(|_| is_closed) {

@@ -62,7 +62,7 @@ fn all_who_come_over_a_ramp_have_to_leave_its_lane() {
     let ((ramp, [start, end]), (lane, [beside, until])) = (change.from, change.to);
     assert!((3600.0 * change.flow - 1000.0).abs() < 1e-6);
     assert!(end - start > 100.0 && (until - beside - (end - start)).abs() < 1.0, "{change:?}");
-    assert!(network.chain(ramp).is_lane_drop && !network.chain(lane).is_lane_drop);
+    assert!(network.chain(ramp).is_lane_drop() && !network.chain(lane).is_lane_drop());
 }
 
 #[test]

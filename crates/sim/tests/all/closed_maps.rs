@@ -20,11 +20,11 @@ fn inner_places(network: &Network) -> Places {
 }
 
 /// A fleet of all classes.
-const FLEET: Fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.1 };
+const FLEET: Fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.1, taxis: 0.0, emergency: 0.0 };
 
 fn demand(network: &Network, places: Places, total: f64) -> Demand {
     let population = drivers::demand(network, 0.0, 0.0, &[0.3, 0.7]).population;
-    Demand::over(places, total, FLEET, population)
+    Demand::over(network, places, total, FLEET, population)
 }
 
 fn world(network: Network, places: Places, total: f64, seed: u64) -> World {

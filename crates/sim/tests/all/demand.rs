@@ -121,7 +121,7 @@ fn classes_styles_and_destinations_come_in_their_shares() {
     let plan = Motorway { length_m: 2000.0, off_ramp_at: vec![1000.0], ..Motorway::default() };
     let network = motorway(&plan).unwrap().build().unwrap().network;
     assert_eq!(network.exits.len(), 2);
-    let fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.2 };
+    let fleet = Fleet { trucks: 0.1, buses: 0.05, motorcycles: 0.2, ..Fleet::default() };
     let demand = Demand { fleet, ..drivers::demand(&network, 3000.0, 0.0, &[0.119, 0.881]) };
     let mut world = world(network, demand, 0.5);
     let (mut entered, mut classes, mut aggressive, mut to_the_ramp) = (0.0_f64, [0.0; 4], 0.0, 0.0);
@@ -206,7 +206,7 @@ fn a_demand_or_step_without_sense_is_refused_with_its_value() {
         "the share of trucks is 1.5: it must be a number not below 0 and not above 1"
     );
     assert_eq!(
-        message(&|it| it.fleet = Fleet { trucks: 0.5, buses: 0.5, motorcycles: 0.25 }),
+        message(&|it| it.fleet = Fleet { trucks: 0.5, buses: 0.5, motorcycles: 0.25, ..Fleet::default() }),
         "the share of cars is -0.25: it must be a number not below 0 and not above 1"
     );
     assert_eq!(

@@ -149,7 +149,7 @@ fn is_long(vehicle: &Vehicle, _: &World) -> bool {
 fn is_slower(vehicle: &Vehicle, world: &World) -> bool {
     let (driver, network) = (vehicle.driver, world.network());
     let limit = network.chain(vehicle.spot.chain).limit(vehicle.x());
-    driver.class.desired_speed(vehicle.style(), limit, &network.law) < limit
+    laneweave_sim::desired_speed(driver.class, vehicle.style(), limit, &network.law) < limit
 }
 
 /// The shares of the distance that is driven on the slow lane by vehicles of two groups: the others, and these.

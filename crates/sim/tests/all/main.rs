@@ -5,6 +5,7 @@ mod assignment;
 mod attention;
 mod bends;
 mod changes;
+mod classes;
 mod closed_maps;
 mod conservation;
 mod demand;

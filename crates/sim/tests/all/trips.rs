@@ -27,7 +27,12 @@ fn world(network: Network, per_hour: f64) -> World {
 /// Places one moving vehicle at the start of `chain`.
 fn place(world: &mut World, class: Class, chain: ChainIndex, destination: u16) {
     let style = drivers::conservative();
-    let speed = class.desired_speed(&style, world.network().chain(chain).limit(0.0), &world.network().law);
+    let speed = laneweave_sim::desired_speed(
+        class,
+        &style,
+        world.network().chain(chain).limit(0.0),
+        &world.network().law,
+    );
     let x = class.body().length;
     world
         .place(Placement { chain, x, speed, class, parameters: 0, destination: Some(destination) })

@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 
 use laneweave::sim::{Place, Places};
 use laneweave_maps::{BORDERS, Map, Problem, RuleKind, check};
-use laneweave_network::{ChainIndex, DrivingSide, Network, Position, Sign};
+use laneweave_network::{ChainIndex, Classes, DrivingSide, Network, Position, Sign};
 use laneweave_scenario::scenario::driven;
 use laneweave_scenario::{Remark, remarks};
 use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
@@ -31,6 +31,8 @@ pub struct Report {
     pub lane_km: f64,
     /// Least and greatest speed limit [km/h].
     pub speed_limits_kmh: [f64; 2],
+    /// Lanelets that are for some vehicles only, by who may use them.
+    pub restricted: Vec<Restricted>,
     /// Pairs of lanelets that follow each other.
     pub following: usize,
     /// Lanelets from which a change to the left is allowed, and to the right.
@@ -57,6 +59,27 @@ pub struct Report {
     pub problems: Vec<Problem>,
     /// Remarks on the traffic of the map.
     pub remarks: Vec<Remark>,
+}
+
+/// Lanelets that the same classes of vehicles may use, and others not.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Restricted {
+    /// The classes that may use them.
+    pub classes: Vec<&'static str>,
+    /// Their ids.
+    pub lanelets: Vec<i64>,
+}
+
+impl Restricted {
+    /// All of them on a network.
+    fn all(network: &Network) -> Vec<Restricted> {
+        let mut by_classes: BTreeMap<Classes, Vec<i64>> = BTreeMap::new();
+        for lanelet in network.lanelets.iter().filter(|it| it.classes != Classes::ALL) {
+            by_classes.entry(lanelet.classes).or_default().push(lanelet.id);
+        }
+        let names = |it: Classes| it.iter().map(|class| class.body().name).collect();
+        by_classes.into_iter().map(|(it, lanelets)| Restricted { classes: names(it), lanelets }).collect()
+    }
 }
 
 /// An entrance or an exit.
@@ -106,6 +129,7 @@ impl Report {
             two_way,
             lane_km: (lanelets.iter().map(|it| it.length()).sum::<f64>()).round() / METRES_PER_KM,
             speed_limits_kmh: [bound(f64::min), bound(f64::max)],
+            restricted: Restricted::all(network),
             following: lanelets.iter().map(|it| it.following.len()).sum(),
             lane_changes: [
                 lanelets.iter().filter(|it| it.left.is_some()).count(),
@@ -165,6 +189,9 @@ impl Report {
             self.lanelets, self.lane_km
         )?;
         writeln!(out, "of them two-way        {}", self.two_way)?;
+        for Restricted { classes, lanelets } in &self.restricted {
+            writeln!(out, "only for some          {}: {}", classes.join(", "), listed(lanelets))?;
+        }
         writeln!(out, "successor pairs        {}", self.following)?;
         writeln!(out, "lane changes allowed   {left} to the left, {right} to the right")?;
         writeln!(out, "conflicting pairs      {}", self.conflicts)?;

@@ -14,6 +14,8 @@ type Rgb = [u8; 3];
 
 const GROUND: Rgb = [206, 215, 196];
 const ROAD: Rgb = [92, 96, 104];
+/// Lanes for some vehicles only, such as buses.
+const RESTRICTED: Rgb = [122, 84, 78];
 const WHITE: Rgb = [240, 240, 236];
 const GREY: Rgb = [150, 150, 150];
 const GLASS: Rgb = [38, 46, 58];
@@ -78,11 +80,12 @@ fn stroke(canvas: &mut Pixmap, sight: &Sight, line: &[f64], colour: Rgb, width: 
 
 /// Surfaces, crosswalks and lines.
 pub(super) fn roads(canvas: &mut Pixmap, sight: &Sight, scene: &Scene) {
-    let road = paint(ROAD);
+    let [road, restricted] = [ROAD, RESTRICTED].map(paint);
     for lanelet in &scene.lanelets {
+        let surface = if lanelet.only_for.is_some() { &restricted } else { &road };
         let outline = lanelet.left.chunks_exact(3).chain(lanelet.right.chunks_exact(3).rev());
         if let Some(path) = path(sight, outline, true) {
-            canvas.fill_path(&path, &road, FillRule::Winding, Transform::identity(), None);
+            canvas.fill_path(&path, surface, FillRule::Winding, Transform::identity(), None);
         }
     }
     for crosswalk in &scene.crosswalks {

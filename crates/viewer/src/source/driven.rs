@@ -201,7 +201,7 @@ impl Driven {
 
 fn body(class: Class) -> Body {
     match class {
-        Class::Car => Body::Car,
+        Class::Car | Class::Taxi | Class::Emergency => Body::Car,
         Class::Truck => Body::Truck,
         Class::Bus => Body::Bus,
         Class::Motorcycle => Body::Motorcycle,

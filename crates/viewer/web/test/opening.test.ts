@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { opening } from '../src/road/opening.ts';
 
-const lane = (...centre: number[]) => ({ id: '1', left: [], right: [], centre, limit_kmh: 50, is_conflict: false });
+const lane = (...centre: number[]) => ({ id: '1', left: [], right: [], centre, limit_kmh: 50, is_conflict: false, only_for: null });
 
 test('a small map is shown as a whole', () => {
   assert.deepEqual(opening({ bounds: [-100, -50, 900, 50], lanelets: [lane(0, 0, 0, 10, 0, 0)] }), [-100, -50, 900, 50]);

@@ -14,7 +14,7 @@ function slope(): Scene {
     driving_side: 'right',
     origin: [5000, 7000, 0],
     bounds: [100, -2, 1100, 2],
-    lanelets: [{ id: '1', left: line(2), right: line(-2), centre: line(0), limit_kmh: 50, is_conflict: false }],
+    lanelets: [{ id: '1', left: line(2), right: line(-2), centre: line(0), limit_kmh: 50, is_conflict: false, only_for: null }],
     markings: [],
     crosswalks: [],
     stop_lines: [],

@@ -71,7 +71,15 @@ fn each_default_behind_a_hash_changes_nothing() {
     for line in text.lines() {
         let key = line.strip_prefix('#').filter(|it| !it.starts_with(' '));
         if let Some(header) = key.filter(|it| it.starts_with('[')) {
-            is_example = ["[[demand.od]]", "[[turns]]", "[[external]]", "[[obstacle]]"].contains(&header);
+            is_example = [
+                "[[demand.od]]",
+                "[[demand.line]]",
+                "[[demand.line.stops]]",
+                "[[turns]]",
+                "[[external]]",
+                "[[obstacle]]",
+            ]
+            .contains(&header);
         }
         let name = key.and_then(|it| it.split(' ').next()).unwrap_or_default();
         let is_kept = !is_example && !examples.contains(&name);

@@ -77,7 +77,7 @@ fn drive(seed: u64, table: impl Fn(Mcdm) -> Mcdm, crawlers: f64) -> Found {
         Places { origins: inner_places(&approach), destinations: Places::at_gates(&network).destinations };
     let population = vec![Share { weight: 1.0, first: count, count: 1 }];
     let total = crawlers * places.origins.len() as f64;
-    let mut demand = Demand::over(places, total, Fleet::default(), population);
+    let mut demand = Demand::over(&network, places, total, Fleet::default(), population);
     for origin in &mut demand.origins {
         origin.weights.fill(0.0);
         origin.weights[usize::from(common)] = 1.0;

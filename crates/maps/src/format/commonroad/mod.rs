@@ -73,7 +73,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     Ok(Map { network, graph, rules: Vec::new(), contents, problems, origin: None })
 }
 
-/// The lanelets that cars may use and that have a shape, without links; and the indices of all ids.
+/// The lanelets that vehicles may use and that have a shape, without links; and the indices of all ids.
 fn shaped<'a>(
     document: &'a Document,
     law: Law,
@@ -89,10 +89,12 @@ fn shaped<'a>(
             problems.push(element.problem(what, "give it an id of its own"));
             continue;
         };
-        let lanelet = if rules::is_for_cars(element) { bare(element, problems) } else { None };
+        let classes = rules::classes(element);
+        let lanelet = if classes.is_empty() { None } else { bare(element, problems) };
         place.insert(lanelet.as_ref().map(|_| LaneletIndex(lanelets.len() as u32)));
         let Some(mut lanelet) = lanelet else { continue };
         let surroundings = rules::surroundings(element, of_scenario);
+        lanelet.classes = classes;
         lanelet.is_in_town = surroundings == Surroundings::Town;
         lanelet.speed_limit = speed::limit(element, &signs, law, surroundings, of_law, problems);
         elements.push(element);

@@ -1,6 +1,8 @@
-//! Traffic rules for cars: which lanelets they may use, and which bounds they may cross.
+//! Traffic rules: who may use a lanelet, and which bounds may be crossed.
 //!
 //! After the documentation of CommonRoad's XML format, version 2020a.
+
+use laneweave_network::{Class, Classes};
 
 use super::element::LaneletElement;
 use crate::drawing::{Crossing, Surroundings};
@@ -19,10 +21,12 @@ const ROADS: [&str; 10] = [
     "unknown",
 ];
 
-/// Types of lanelets that are not for cars.
-const OTHERS: [&str; 10] = [
+/// The type of lanelets for buses.
+const BUS_LANE: &str = "busLane";
+
+/// Types of lanelets on which nobody drives.
+const OTHERS: [&str; 9] = [
     "shoulder",
-    "busLane",
     "busStop",
     "bicycleLane",
     "sidewalk",
@@ -33,27 +37,44 @@ const OTHERS: [&str; 10] = [
     "restricted_area",
 ];
 
-/// Users that include cars.
-const CAR_USERS: [&str; 2] = ["vehicle", "car"];
-
 /// Whether the format has this type of lanelets.
 pub(super) fn is_type(text: &str) -> bool {
-    ROADS.contains(&text) || OTHERS.contains(&text)
+    text == BUS_LANE || ROADS.contains(&text) || OTHERS.contains(&text)
 }
 
-/// Whether cars may use a lanelet.
+/// The classes of vehicles that may use a lanelet.
 ///
-/// Its users name everyone who may; without users, all of its types must be roads. A lanelet without types is a road.
-pub(super) fn is_for_cars(lanelet: &LaneletElement) -> bool {
+/// Its users name everyone who may; without users, its types decide: all of them must be roads, or lanes for buses. A
+/// lanelet without types is a road.
+pub(super) fn classes(lanelet: &LaneletElement) -> Classes {
     if lanelet.users.is_empty() && lanelet.users_both_ways.is_empty() {
-        return lanelet.types.iter().all(|it| ROADS.contains(&it.as_str()));
+        let is_driven_on = |it: &String| it == BUS_LANE || ROADS.contains(&it.as_str());
+        return match () {
+            () if !lanelet.types.iter().all(is_driven_on) => Classes::NONE,
+            () if lanelet.types.iter().any(|it| it == BUS_LANE) => Classes::BUS_LANE,
+            () => Classes::ALL,
+        };
     }
-    lanelet.users.iter().any(|it| CAR_USERS.contains(&it.as_str())) || is_two_way(lanelet)
+    named(&lanelet.users).and(named(&lanelet.users_both_ways))
 }
 
-/// Whether cars may use a lanelet against its direction, too.
+/// The classes of vehicles among these users.
+fn named(users: &[String]) -> Classes {
+    users.iter().map(|it| classes_of_user(it)).fold(Classes::NONE, Classes::and)
+}
+
+/// The classes of vehicles that a user of this name has.
+fn classes_of_user(user: &str) -> Classes {
+    match user {
+        "vehicle" => Classes::ALL,
+        "priorityVehicle" => Classes::from_iter([Class::Emergency]),
+        _ => Classes::ALL.iter().filter(|it| it.body().name == user).collect(),
+    }
+}
+
+/// Whether vehicles may use a lanelet against its direction, too.
 pub(super) fn is_two_way(lanelet: &LaneletElement) -> bool {
-    lanelet.users_both_ways.iter().any(|it| CAR_USERS.contains(&it.as_str()))
+    !named(&lanelet.users_both_ways).is_empty()
 }
 
 /// The surroundings of a lanelet, by its types. For a lanelet without types, or with only `urban`, those of the
@@ -103,22 +124,27 @@ mod tests {
 
     #[test]
     fn all_types_must_be_roads() {
-        assert!(is_for_cars(&lanelet(&[], &[], &[])));
+        let of_types = |types: &[&str]| classes(&lanelet(types, &[], &[]));
+        assert_eq!(of_types(&[]), Classes::ALL);
         for road in ROADS {
-            assert!(is_type(road) && is_for_cars(&lanelet(&[road], &[], &[])), "{road}");
+            assert!(is_type(road) && of_types(&[road]) == Classes::ALL, "{road}");
             for other in OTHERS {
-                assert!(is_type(other) && !is_for_cars(&lanelet(&[road, other], &[], &[])), "{other}");
+                assert!(is_type(other) && of_types(&[road, other]).is_empty(), "{other}");
             }
         }
-        assert!(!is_type("canal") && !is_for_cars(&lanelet(&["canal"], &[], &[])));
+        assert!(!is_type("canal") && of_types(&["canal"]).is_empty());
+        assert!(is_type("busLane"));
+        assert_eq!(of_types(&["urban", "busLane"]).names(), "bus, taxi, emergency");
     }
 
     #[test]
     fn named_users_outrank_the_type() {
-        assert!(is_for_cars(&lanelet(&["busLane"], &["bus", "car"], &[])));
-        assert!(is_for_cars(&lanelet(&["busLane"], &[], &["vehicle"])));
-        assert!(!is_for_cars(&lanelet(&["urban"], &["bicycle"], &[])));
-        assert!(!is_for_cars(&lanelet(&["urban"], &[], &["pedestrian"])));
+        let named = |kind, users, both_ways| classes(&lanelet(kind, users, both_ways)).names();
+        assert_eq!(named(&["busLane"], &["bus", "car"], &[]), "car, bus");
+        assert_eq!(classes(&lanelet(&["busLane"], &[], &["vehicle"])), Classes::ALL);
+        assert_eq!(named(&["urban"], &["priorityVehicle", "bicycle"], &["taxi"]), "taxi, emergency");
+        assert_eq!(named(&["urban"], &["bicycle"], &[]), "");
+        assert_eq!(named(&["urban"], &[], &["pedestrian"]), "");
     }
 
     #[test]

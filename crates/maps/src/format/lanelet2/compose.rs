@@ -7,7 +7,7 @@ use laneweave_network::Point;
 
 use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Way};
 use super::projection::Utm;
-use super::rules::{line_subtype, subtype_and_location};
+use super::rules::{line_subtype, participants, subtype_and_location};
 use crate::drawing::{Border, Drawing, Lane, Paint};
 use crate::rule::{Rule, RuleKind};
 
@@ -104,14 +104,11 @@ impl Composer {
         let rules = rules.iter().map(|it| ("relation", *it, "regulatory_element"));
         let one_way = if lane.is_two_way { "no" } else { "yes" };
         let (subtype, location) = subtype_and_location(lane.surroundings);
-        let tags: [(&str, &dyn Display); 6] = [
-            ("type", &"lanelet"),
-            ("subtype", &subtype),
-            ("location", &location),
-            ("one_way", &one_way),
-            ("participant:vehicle", &"yes"),
-            ("speed_limit", &lane.limit_kmh),
-        ];
+        let participants = participants(lane.classes);
+        let mut tags: Vec<(&str, &dyn Display)> =
+            vec![("type", &"lanelet"), ("subtype", &subtype), ("location", &location), ("one_way", &one_way)];
+        tags.extend(participants.iter().map(|it| (it.as_str(), &"yes" as &dyn Display)));
+        tags.push(("speed_limit", &lane.limit_kmh));
         self.relation(lane.id, sides.into_iter().chain(rules), &tags);
     }
 

@@ -1,4 +1,4 @@
-//! From OSM elements to a drawing: the lanelets that cars may use, with the borders and points they need.
+//! From OSM elements to a drawing: the lanelets that vehicles may use, with the borders and points they need.
 
 use laneweave_network::Point;
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ pub(super) fn draw(
                 .into_iter()
                 .map(|flaw| problem("lanelet", relation.id, relation.line, flaw)),
         );
-        if rules::is_for_cars(tags) && lookup.is_first(relation) {
+        if !rules::classes(tags).is_empty() && lookup.is_first(relation) {
             found.push((relation, draft.borders_of(relation)));
         }
     }
@@ -49,7 +49,8 @@ pub(super) fn draw(
     let mut ends = Ends::default();
     for (relation, edges) in found {
         let of_lanelet = |flaw: Flaw| problem("lanelet", relation.id, relation.line, flaw);
-        let is_two_way = rules::is_two_way(document.tags(relation.tags));
+        let tags = document.tags(relation.tags);
+        let is_two_way = rules::is_two_way(tags);
         if is_two_way {
             let what = "it may be used in both directions; simulated traffic uses the forward one only";
             problems.push(of_lanelet((what.into(), "draw a lanelet for each direction")));
@@ -59,8 +60,9 @@ pub(super) fn draw(
                 let limit_kmh =
                     speed_rules.limit(relation, options.law, &mut contents.limits_of_law, problems);
                 let line = Some(relation.line as usize);
-                let (id, surroundings) = (relation.id, rules::surroundings(document.tags(relation.tags)));
-                let lane = Lane { id, line, left, right, is_two_way, surroundings, limit_kmh };
+                let (id, classes, surroundings) =
+                    (relation.id, rules::classes(tags), rules::surroundings(tags));
+                let lane = Lane { id, line, left, right, classes, is_two_way, surroundings, limit_kmh };
                 draft.drawing.lanes.push(lane);
             }
             Err((what, remedy)) => problems.push(of_lanelet((format!("{what}, so it is left out"), remedy))),

@@ -1,6 +1,8 @@
-//! Traffic rules for cars: which lanelets they may use, and which borders they may cross.
+//! Traffic rules: who may use a lanelet, and which borders may be crossed.
 //!
 //! After the tagging guide of Lanelet2 (`LaneletAndAreaTagging`, `LinestringTagging`).
+
+use laneweave_network::{Class, Classes};
 
 use super::osm::Tags;
 use crate::contents::MarkingPaint;
@@ -9,8 +11,8 @@ use crate::drawing::{Crossing, Paint, Surroundings};
 /// A problem, and its remedy.
 pub(super) type Flaw = (String, &'static str);
 
-/// The tags that allow, or forbid, a lanelet for cars; the first one given decides.
-const PARTICIPANTS: [&str; 2] = ["participant:vehicle:car", "participant:vehicle"];
+/// The beginning of the tags that allow, or forbid, a lanelet for somebody.
+const PARTICIPANT: &str = "participant:";
 
 /// The tags that say whether cars may use a lanelet in one direction only; the first one given decides.
 const ONE_WAY: [&str; 3] = ["one_way:vehicle:car", "one_way:vehicle", "one_way"];
@@ -36,14 +38,46 @@ const SUBTYPES: [&str; 14] = [
 /// Subtypes of painted lines.
 const LINES: [&str; 6] = ["solid", "solid_solid", "dashed", "dashed_solid", "solid_dashed", "dashed_dashed"];
 
-/// Whether cars may use a lanelet with these tags.
+/// The classes of vehicles that may use a lanelet with these tags.
 ///
-/// Tags `participant:…` name everyone who may; without them the subtype decides.
-pub(super) fn is_for_cars(lanelet: Tags) -> bool {
-    if lanelet.any("participant:") {
-        return PARTICIPANTS.into_iter().find_map(|key| flag(lanelet, key)).unwrap_or(false);
+/// Tags `participant:…` with yes name everyone who may. Those with no forbid it to some of those for whom the subtype
+/// is, where nobody is named (ours: the reference library then allows nobody). A tag for a class comes before
+/// `participant:vehicle`.
+///
+/// A hard shoulder (`emergency_lane`) is no lane to drive on, unless its tags name somebody.
+pub(super) fn classes(lanelet: Tags) -> Classes {
+    let keys = lanelet.all().filter(|(key, _)| key.starts_with(PARTICIPANT));
+    let names_somebody = keys.map(|(key, _)| key).any(|it| flag(lanelet, it) == Some(true));
+    let usual = if names_somebody { Classes::NONE } else { classes_of_subtype(lanelet) };
+    let may_use = |class: &Class| {
+        let mut flags = keys_of(*class).into_iter().filter_map(|key| flag(lanelet, &key));
+        flags.next().unwrap_or(usual.has(*class))
+    };
+    Classes::ALL.iter().filter(may_use).collect()
+}
+
+/// The classes for whom a lanelet of this subtype is.
+fn classes_of_subtype(lanelet: Tags) -> Classes {
+    match lanelet.get("subtype").unwrap_or("road") {
+        "road" | "highway" | "play_street" | "exit" => Classes::ALL,
+        "bus_lane" => Classes::BUS_LANE,
+        _ => Classes::NONE,
     }
-    matches!(lanelet.get("subtype").unwrap_or("road"), "road" | "highway" | "play_street" | "exit")
+}
+
+/// The tags that allow, or forbid, a lanelet for a class; the first one given decides. Maps also have the second form,
+/// which the tagging guide does not.
+fn keys_of(class: Class) -> [String; 3] {
+    let name = class.body().name;
+    [format!("{PARTICIPANT}vehicle:{name}"), format!("{PARTICIPANT}{name}"), format!("{PARTICIPANT}vehicle")]
+}
+
+/// The tags from which [`classes`] returns these again.
+pub(super) fn participants(classes: Classes) -> Vec<String> {
+    if classes == Classes::ALL {
+        return vec![format!("{PARTICIPANT}vehicle")];
+    }
+    classes.iter().map(|it| keys_of(it).into_iter().next().unwrap_or_default()).collect()
 }
 
 /// Whether cars may use a lanelet with these tags against its direction, too.
@@ -140,7 +174,10 @@ pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<Flaw> {
         )),
         _ => {}
     }
-    for key in PARTICIPANTS.into_iter().chain(ONE_WAY) {
+    let mut keys: Vec<String> = Class::ALL.into_iter().flat_map(keys_of).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    for key in keys.iter().map(String::as_str).chain(ONE_WAY) {
         if let Some(value) = lanelet.get(key).filter(|_| flag(lanelet, key).is_none()) {
             flaws.push((format!("its tag {key} is {value:?}, so it is ignored"), "write yes or no"));
         }
@@ -180,25 +217,57 @@ fn flag(tags: Tags, key: &str) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::lanelet2::osm::with_tags;
+    use crate::format::lanelet2::osm::{Document, with_tags};
 
     #[test]
     fn the_subtype_tells_who_may_use_a_lanelet() {
         for subtype in ["road", "highway", "play_street", "exit"] {
-            assert!(with_tags([("subtype", subtype)], is_for_cars), "{subtype}");
+            assert_eq!(with_tags([("subtype", subtype)], classes), Classes::ALL, "{subtype}");
         }
-        for subtype in ["walkway", "crosswalk", "bicycle_lane", "bus_lane", "emergency_lane", "stairs", "x"] {
-            assert!(!with_tags([("subtype", subtype)], is_for_cars), "{subtype}");
+        for subtype in ["walkway", "crosswalk", "bicycle_lane", "emergency_lane", "stairs", "x"] {
+            assert_eq!(with_tags([("subtype", subtype)], classes), Classes::NONE, "{subtype}");
         }
-        assert!(with_tags([], is_for_cars));
+        assert_eq!(with_tags([("subtype", "bus_lane")], classes).names(), "bus, taxi, emergency");
+        assert_eq!(with_tags([], classes), Classes::ALL);
     }
 
     #[test]
     fn named_participants_outrank_the_subtype() {
-        assert!(with_tags([("subtype", "walkway"), ("participant:vehicle", "yes")], is_for_cars));
-        assert!(with_tags([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")], is_for_cars));
-        assert!(!with_tags([("subtype", "road"), ("participant:bicycle", "yes")], is_for_cars));
-        assert!(!with_tags([("subtype", "road"), ("participant:vehicle", "no")], is_for_cars));
+        let names = |tags| with_tags(tags, |it| classes(it).names());
+        assert_eq!(
+            names([("subtype", "walkway"), ("participant:vehicle", "yes")]),
+            "car, truck, bus, motorcycle, taxi, emergency"
+        );
+        assert_eq!(names([("subtype", "bus_lane"), ("participant:vehicle:car", "yes")]), "car");
+        assert_eq!(names([("subtype", "road"), ("participant:bicycle", "yes")]), "");
+        assert_eq!(names([("subtype", "road"), ("participant:vehicle", "no")]), "");
+        assert_eq!(names([("subtype", "road"), ("participant:taxi", "yes")]), "taxi");
+    }
+
+    #[test]
+    fn who_is_forbidden_a_lanelet_is_not_among_those_who_may() {
+        let names = |tags| with_tags(tags, |it| classes(it).names());
+        let all_but_trucks = "car, bus, motorcycle, taxi, emergency";
+        assert_eq!(names([("subtype", "road"), ("participant:vehicle:truck", "no")]), all_but_trucks);
+        assert_eq!(
+            names([("participant:vehicle", "yes"), ("participant:vehicle:truck", "no")]),
+            all_but_trucks
+        );
+        assert_eq!(names([("participant:vehicle", "no"), ("participant:vehicle:bus", "yes")]), "bus");
+        assert_eq!(names([("subtype", "bus_lane"), ("participant:vehicle:taxi", "no")]), "bus, emergency");
+    }
+
+    #[test]
+    fn all_sets_of_classes_have_tags_to_write() {
+        let wanted = [Classes::ALL, Classes::BUS_LANE, Classes::from_iter([Class::Car, Class::Motorcycle])];
+        for set in wanted {
+            let mut document = Document::default();
+            let tags = participants(set);
+            let tags: Vec<(&str, &dyn std::fmt::Display)> =
+                tags.iter().map(|it| (it.as_str(), &"yes" as &dyn std::fmt::Display)).collect();
+            let span = document.keep_tags(&tags);
+            assert_eq!(classes(document.tags(span)), set);
+        }
     }
 
     #[test]

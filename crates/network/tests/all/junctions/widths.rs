@@ -55,7 +55,7 @@ fn tapering() -> Network {
 fn a_lane_that_narrows_to_nothing_ends_for_each_class_where_it_is_as_wide_as_that() {
     let network = tapering();
     let [road, drop] = &network.chains[..] else { panic!("{} chains", network.chains.len()) };
-    assert!(drop.is_lane_drop && drop.is_narrow && !road.is_narrow);
+    assert!(drop.is_lane_drop() && drop.is_restricted && !road.is_restricted);
     // It is 3.30 m wide at 200 m and narrows by 3.3 cm in a metre: to 1.80 m in 45.5 m, to 2.55 m in 22.7 m.
     for (is_long, end) in [(false, 245.5), (true, 222.7)] {
         let until = drop.driven_until(is_long);
@@ -90,7 +90,7 @@ fn late(taper: f64) -> Network {
 fn a_lane_that_narrows_as_soon_as_it_can_be_left_ends_for_nobody_before_there_was_road_to_leave_it() {
     for taper in [30.0, 45.0, 60.0] {
         let network = late(taper);
-        let drop = network.chains.iter().find(|it| it.is_lane_drop).expect("a lane that ends");
+        let drop = network.chains.iter().find(|it| it.is_lane_drop()).expect("a lane that ends");
         let [stretch] = drop.stretches(Side::Left) else { panic!("{:?}", drop.stretches(Side::Left)) };
         assert!((stretch.end - stretch.start - taper).abs() < 1.5, "no zone takes any of it: {stretch:?}");
         for is_long in [false, true] {
@@ -109,7 +109,7 @@ fn lanes_side_by_side_of_2_60_m_do_not_get_in_each_others_way() {
     let network = network(lanes);
     assert_eq!(network.junctions.zones, []);
     for (chain, side) in network.chains.iter().zip([Side::Right, Side::Left]) {
-        assert!(!chain.is_narrow, "as wide as the widest vehicle");
+        assert!(!chain.is_restricted, "as wide as the widest vehicle");
         assert_eq!(chain.stretches(side).len(), 1, "one may change lanes all along");
     }
 }

@@ -4,7 +4,7 @@ use laneweave_study::units::KMH_PER_MPS;
 use laneweave_study::{Interval, poisson_interval};
 
 use super::RunReport;
-use crate::outcome::Summary;
+use crate::outcome::{LineServed, Summary};
 use crate::report::{Section, Tile, counted, number, with_interval};
 
 pub(super) fn section(run: &RunReport) -> Section {
@@ -64,7 +64,7 @@ pub(super) fn section(run: &RunReport) -> Section {
         ),
         tile(counted(*waiting_to_enter), "vehicles waiting to enter", "at the end".into()),
     ];
-    let tiles = [tiles, troubles(summary)].concat();
+    let tiles = [tiles, lines(summary), troubles(summary)].concat();
     Section::new("numbers", "Key numbers").tiles(tiles).note(
         "A lane change counts when the centre of the vehicle crosses the line. The intervals of counts are exact Poisson 95 % \
          intervals, which assume that lane changes are independent. Delay is the trip time minus the time on a free road at the \
@@ -75,6 +75,15 @@ pub(super) fn section(run: &RunReport) -> Section {
 
 fn tile(value: String, name: &str, more: String) -> Tile {
     Tile { value, name: name.into(), more }
+}
+
+/// What the lines of buses did.
+fn lines(summary: &Summary) -> Vec<Tile> {
+    let of_line = |it: &LineServed| {
+        let more = format!("of line {}, by {} departures; {} missed", it.name, it.departed, it.stops_missed);
+        tile(counted(it.stops_served), "stops served", more)
+    };
+    summary.lines.iter().map(of_line).collect()
 }
 
 /// Problems, and changes of route.

@@ -68,6 +68,7 @@ impl Facts {
             ("demand.entrances", entrances(prepared)),
             ("demand.exits", exits(prepared)),
             ("demand.od", od(prepared)),
+            ("demand.line", line(prepared)),
             ("turns", turns(prepared)),
             ("signals", signals(prepared)),
             ("external", external(prepared)),
@@ -124,13 +125,7 @@ fn exits(prepared: &Prepared) -> Rows {
 
 /// As an example, the first entrance with the first exit that it has a route to.
 fn od(prepared: &Prepared) -> Rows {
-    let world = &prepared.world;
-    let exits = &world.demand().destinations;
-    let pair = prepared.origins.iter().enumerate().find_map(|(from, (place, rate))| {
-        let to = (0..exits.len()).find(|to| world.leads(from, *to))?;
-        Some((place.id(), exits[to].id(), *rate))
-    });
-    let row = pair.map(|(from, to, rate)| Row::Table {
+    let row = pair(prepared).map(|(from, to, rate)| Row::Table {
         header: "[[demand.od]]",
         keys: vec![
             ("from", json!(from.to_string())),
@@ -139,6 +134,38 @@ fn od(prepared: &Prepared) -> Rows {
         ],
     });
     Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
+}
+
+/// The first entrance with the first exit that it has a route to, and its demand [veh/h].
+fn pair(prepared: &Prepared) -> Option<(i64, i64, f64)> {
+    let world = &prepared.world;
+    let exits = &world.demand().destinations;
+    prepared.origins.iter().enumerate().find_map(|(from, (place, rate))| {
+        let to = (0..exits.len()).find(|to| world.leads(from, *to))?;
+        Some((place.id(), exits[to].id(), *rate))
+    })
+}
+
+/// As an example, a line between the same places, with a stop on its first lanelet.
+fn line(prepared: &Prepared) -> Rows {
+    let network = prepared.world.network();
+    let length = |id: i64| network.lanelet_with(id).map_or(0.0, |it| network.lanelets[it.at()].length());
+    let tables = pair(prepared).map(|(from, to, _)| {
+        let keys = vec![
+            ("name", json!("1")),
+            ("from", json!(from.to_string())),
+            ("to", json!(to.to_string())),
+            ("every_s", json!(600.0)),
+        ];
+        let stop = vec![
+            ("lanelet", json!(from)),
+            ("position_m", json!(tenths(0.5 * length(from)))),
+            ("rest_s", json!(20.0)),
+        ];
+        [("[[demand.line]]", keys), ("[[demand.line.stops]]", stop)]
+    });
+    let rows = tables.into_iter().flatten().map(|(header, keys)| Row::Table { header, keys });
+    Rows { note: "For example:".into(), rows: rows.collect(), omitted: 0 }
 }
 
 /// The junctions with their default shares, by the number of lanes.

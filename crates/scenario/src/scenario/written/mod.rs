@@ -15,7 +15,7 @@ use facts::{Facts, Row};
 use prose::{Kind, comment, described, inline, key, kind, meaning};
 
 /// Keys and tables in the order of the file; others follow in that of their names.
-const ORDER: [&str; 41] = [
+const ORDER: [&str; 46] = [
     "map",
     "model",
     "made_signals",
@@ -25,6 +25,8 @@ const ORDER: [&str; 41] = [
     "demand.trucks",
     "demand.buses",
     "demand.motorcycles",
+    "demand.taxis",
+    "demand.emergency",
     "demand.profile",
     "demand.headways",
     "demand.entrances",
@@ -32,6 +34,9 @@ const ORDER: [&str; 41] = [
     "demand.od",
     "demand.od.from",
     "demand.od.to",
+    "demand.line",
+    "demand.line.from",
+    "demand.line.to",
     "turns",
     "turns.from",
     "turns.left",

@@ -4,7 +4,7 @@ pub(crate) mod drivers;
 
 use laneweave_generate::{Motorway, motorway, own_maps};
 use laneweave_maps::{Graph, Map, ReadOptions, load, regulations};
-use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
+use laneweave_network::{Classes, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
 use laneweave_test_data::data;
 
 /// Width of a lane [m].
@@ -26,6 +26,8 @@ pub(crate) struct Road {
     pub(crate) is_mirrored: bool,
     /// Whether it lies in a town.
     pub(crate) is_in_town: bool,
+    /// Who may use which lane of which row.
+    pub(crate) classes: fn(usize, usize) -> Classes,
 }
 
 impl Default for Road {
@@ -38,6 +40,7 @@ impl Default for Road {
             is_ring: false,
             is_mirrored: false,
             is_in_town: false,
+            classes: |_, _| Classes::ALL,
         }
     }
 }
@@ -77,6 +80,7 @@ impl Road {
             left_border,
             right_border,
             speed_limit: self.limit,
+            classes: (self.classes)(row, lane),
             is_in_town: self.is_in_town,
             following: if next_row < self.rows() { vec![self.index(next_row, lane)] } else { vec![] },
             left,

@@ -29,10 +29,11 @@ export class LanePanel {
     const { value: index } = this.state.lane;
     this.root.hidden = index === null;
     if (index === null) return;
-    const { id, limit_kmh } = this.scene.lanelets[index];
+    const { id, limit_kmh, only_for } = this.scene.lanelets[index];
     say(this.title, `Lanelet ${id}`);
     const measure = this.state.lanes.value.find(([lanelet]) => lanelet === index);
     const rows: [string, string][] = [
+      ...(only_for === null ? [] : [['only for', only_for] satisfies [string, string]]),
       ['speed limit', withUnit(limit_kmh, 0, 'km/h')],
       ['density', withUnit(measure?.[1], 1, 'vehicles/km')],
       ['speed', measure && measure[2] === null ? 'nobody was there' : withUnit(measure?.[2], 1, 'km/h')],

@@ -24,6 +24,8 @@ export interface Lanelet {
   centre: Line;
   limit_kmh: number | null;
   is_conflict: boolean;
+  /** Who may use it, if these are not all vehicles. */
+  only_for: string | null;
 }
 
 export interface Marking {

@@ -1,6 +1,6 @@
 import { DataTexture, GLSL3, Mesh, NearestFilter, ShaderMaterial } from 'three';
 import type { Scene } from '../protocol/scene.ts';
-import type { Rgb } from '../colour/palette.ts';
+import { rgb, type Rgb } from '../colour/palette.ts';
 import { atmosphere, LIGHT_CHUNK } from '../stage/atmosphere.ts';
 import { shown, SHOWN_CHUNK } from '../vehicles/shown.ts';
 import { MeshBuilder } from './mesh_builder.ts';
@@ -15,6 +15,9 @@ const NO_LANE = -1;
 const TINT_OPACITY = 190;
 const MARKED_OPACITY = 110;
 const CLOSED_OPACITY = 255;
+/** Lanes for some vehicles only, such as buses. */
+const RESTRICTED = rgb('#b0503c');
+const RESTRICTED_OPACITY = 90;
 /** The same where the twin does not have it. */
 const CLOSED_IN_TRAFFIC_OPACITY = 245;
 
@@ -72,7 +75,7 @@ export class RoadSurface {
   private readonly pixels: Uint8Array;
   private readonly texture: DataTexture;
 
-  constructor(scene: Scene) {
+  constructor(private readonly scene: Scene) {
     const count = Math.max(scene.lanelets.length, 1);
     const rows = Math.ceil(count / TEXTURE_WIDTH);
     this.pixels = new Uint8Array(TEXTURE_WIDTH * rows * 4);
@@ -92,11 +95,15 @@ export class RoadSurface {
     this.mesh = new Mesh(surfaceGeometry(scene), material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = -4;
+    this.clear();
   }
 
   clear(): void {
     this.pixels.fill(0);
     this.texture.needsUpdate = true;
+    this.scene.lanelets.forEach(({ only_for }, index) => {
+      if (only_for !== null) this.write(index, RESTRICTED, RESTRICTED_OPACITY);
+    });
   }
 
   tint(lanelet: number, colour: Rgb): void {
