@@ -6,7 +6,7 @@ use std::fmt;
 use laneweave_maps::Map;
 use laneweave_models::Style;
 use laneweave_network::{Beside, Chain, ChainIndex, Classes, Lanelet, Network, Polyline, Position, Side};
-use laneweave_sim::{Fleet, Place, Places};
+use laneweave_sim::{Place, Places};
 use laneweave_study::units::KMH_PER_MPS;
 use serde::Serialize;
 
@@ -193,9 +193,8 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
     )
 }
 
-/// Lanes that are for classes of which `fleet` has none.
-pub(crate) fn unused_lanes(network: &Network, fleet: Fleet) -> Option<Remark> {
-    let driven: Classes = fleet.shares().into_iter().filter(|it| it.1 > 0.0).map(|it| it.0).collect();
+/// Lanes for other classes than those that drive.
+pub(crate) fn unused_lanes(network: &Network, driven: Classes) -> Option<Remark> {
     let is_unused = |it: &&Lanelet| it.classes.iter().all(|class| !driven.has(class));
     let unused: Vec<&Lanelet> = network.lanelets.iter().filter(is_unused).collect();
     let first = unused.first()?;

@@ -1,12 +1,13 @@
 //! The estimated capacity of maps is right: just below it hardly any vehicle waits; above it about as many enter.
 
 use laneweave::generate::{Control, Grid, Motorway, grid, motorway};
-use laneweave::maps::{Drawing, regulations};
+use laneweave::maps::{Drawing, ReadOptions, load, regulations};
 use laneweave::models::Style;
 use laneweave::network::Network;
 use laneweave::style::Population;
 use laneweave::{Bottleneck, Capacity};
 use laneweave_sim::{Assignment, Demand, Navigator, Origin, Rate, Setup, Share, World};
+use laneweave_test_data::data;
 
 const TRUCKS: f64 = 0.1;
 
@@ -162,6 +163,20 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
         assert!(waiting < 8, "{what}: {waiting} wait, {below} of {estimate} veh/h entered");
         let (above, _) = driven(&network, 1.4);
         assert!(above > 0.9 * estimate, "{what}: {above} of {estimate} veh/h entered");
+    }
+}
+
+#[test]
+fn two_lanes_that_join_in_turns_bear_what_the_lane_behind_them_carries() {
+    let Some(file) = data("cases/20_zipper.osm") else { return };
+    for limit in [30.0, 50.0, 70.0] {
+        let mut map = load(&file, &ReadOptions::default()).expect("a map");
+        map.network.lanelets.iter_mut().for_each(|it| it.speed_limit = limit / 3.6);
+        let lanelets = std::mem::take(&mut map.network.lanelets);
+        map.network = Network::new(lanelets, map.network.driving_side).expect("a network");
+        let network = map.network.clone().regulated(&regulations(&map));
+        let (estimate, (above, _)) = (capacity(&network, |_| ()).veh_h, driven(&network, 1.4));
+        assert!((above / estimate - 1.0).abs() < 0.15, "{limit} km/h: {above} of {estimate} veh/h entered");
     }
 }
 

@@ -14,7 +14,9 @@ pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
     let at =
         |movement: &Movement| Bottleneck::Junction(roads.lanelet(movement.chain, movement.start.max(0.0)));
     let together = (0..movements.len()).map(|first| {
-        let share = clique(movements, first).into_iter().map(|it| movements[it].share()).sum();
+        let members = clique(movements, first);
+        let others = |it: usize| members.iter().copied().filter(move |other| *other != it);
+        let share = members.iter().map(|it| movements[*it].share_beside(others(*it))).sum();
         Load { share, of: at(&movements[first]) }
     });
     let approaches = approaches(roads.network, movements);

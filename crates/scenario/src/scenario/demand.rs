@@ -54,7 +54,13 @@ pub(super) fn demand(
 }
 
 impl super::Demand {
-    /// The classes of its vehicles.
+    /// The classes that drive, those of lines among them.
+    pub(super) fn classes(&self) -> Classes {
+        let shares = self.fleet().shares().into_iter().filter(|it| it.1 > 0.0).map(|it| it.0);
+        shares.chain(self.line.iter().map(|it| it.class)).collect()
+    }
+
+    /// The shares of the classes of its vehicles.
     pub(crate) fn fleet(&self) -> Fleet {
         let super::Demand { trucks, buses, motorcycles, taxis, emergency, .. } = *self;
         Fleet { trucks, buses, motorcycles, taxis, emergency }

@@ -163,7 +163,7 @@ fn prepare_with(
     let is_own = origin.map.is_none();
     let network = playing.permit(network);
     let mut remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
-    remarks.extend(unused_lanes(&network, scenario.demand.fleet()));
+    remarks.extend(unused_lanes(&network, scenario.demand.classes()));
     let plans = plans(scenario, origin, &network)?;
     let made = MadeLights::of(scenario, &plans);
     let network = Arc::new(network.with_signals(&plans));
