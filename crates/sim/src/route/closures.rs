@@ -7,19 +7,9 @@ use std::borrow::Cow;
 use laneweave_network::{ChainIndex, Class, LaneletIndex, Network, Position, Side};
 
 use crate::route::navigate::Navigator;
+use crate::route::standing::Standing;
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
-
-/// Something that stands in a lane, and does not go on by itself; or that crawls, and holds up everybody behind it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Standing {
-    /// The lane.
-    pub(crate) chain: ChainIndex,
-    /// Its rear and its front [m].
-    pub(crate) reach: [f64; 2],
-    /// It crawls.
-    pub(crate) crawls: bool,
-}
 
 /// For each side the number of lanes to the next one that is open beside a closed stretch, and the place there.
 type OpenLanes = [Option<(u32, Position)>; 2];
@@ -49,6 +39,16 @@ struct Stretch {
     crawls: bool,
     /// The lanes beside it that are open.
     open: OpenLanes,
+}
+
+impl Stretch {
+    /// Whether something stands there shortly before or behind `trip_end` [m]. Who goes there, such as the next bus to
+    /// the same stop, waits behind it.
+    fn stands_at(&self, trip_end: f64) -> bool {
+        /// So far behind it, somebody who has gone round it is back in its lane [m] (ours).
+        const BACK: f64 = 60.0;
+        self.known_from < Navigator::SIGNED && trip_end < self.reach[1] + BACK
+    }
 }
 
 /// The next closed stretch ahead of a vehicle.
@@ -230,28 +230,6 @@ impl Closures {
     }
 }
 
-impl Standing {
-    /// Road that drivers keep behind it, to steer out of its lane [m] (ours).
-    const ROOM: f64 = 12.0;
-    /// A lane beside it is open if nothing stands there so far before its rear and beyond its front [m] (ours).
-    pub(crate) const ROOM_BEFORE: f64 = Standing::ROOM + Standing::ROOM_FOR_A_LANE;
-    const ROOM_BEYOND: f64 = 25.0;
-    /// Road without a junction on which drivers can pass what crawls [m] (ours).
-    const PASSING: f64 = 200.0;
-    /// The least of it on which a car can steer out [m] (ours).
-    const LEAST_ROOM: f64 = 5.0;
-    /// More of it for each lane that is closed beside it, too [m] (ours).
-    const ROOM_FOR_A_LANE: f64 = 40.0;
-    /// From this distance on drivers see it [m] (ours).
-    const SEEN: f64 = 500.0;
-
-    /// The place up to which drivers come on its lane, if the next open one is so many lanes away [m].
-    fn kept(&self, lanes: u32) -> f64 {
-        let room = Standing::ROOM + Standing::ROOM_FOR_A_LANE * f64::from(lanes.saturating_sub(1));
-        (self.reach[0] - room).max(0.0)
-    }
-}
-
 impl Navigator {
     /// A closed lanelet is signed this far ahead [m], ours.
     pub(crate) const SIGNED: f64 = 2000.0;
@@ -287,7 +265,11 @@ impl Navigator {
         }
         let mut closed_until = f64::NEG_INFINITY;
         for leg in self.walk(network, destination, chain, -x).within(within) {
-            for Stretch { reach, leaves_until, known_from, crawls, open } in self.closures.on(leg.chain) {
+            let trip_end = self.trip_end(destination, leg.chain);
+            let is_passed = |it: &&Stretch| !it.stands_at(trip_end);
+            for Stretch { reach, leaves_until, known_from, crawls, open } in
+                self.closures.on(leg.chain).iter().filter(is_passed)
+            {
                 let [begin, end] = reach.map(|it| leg.start + it);
                 let last = leg.start + leaves_until;
                 let ahead = if begin < 0.0 && last > 0.0 { last } else { begin };

@@ -7,7 +7,9 @@
 //! * `disutility.rs` turns and lights on a route; `fitting_speed.rs` the desired speed before and in bends and lower
 //!   limits
 //! * `links.rs`, `guidance.rs` and `renew_routes.rs` measured travel times, and the routes planned with them
-//! * `class_restrictions.rs` which lanes a class may not use, or avoids; `closures.rs` which lanelets users closed
+//! * `reachable.rs` which destinations can be reached; `wander.rs` the way of drivers without one
+//! * `class_restrictions.rs` which lanes a class may not use, or avoids; `closures.rs` which lanelets users closed, and
+//!   where something stands (`standing.rs`)
 
 pub(crate) mod class_restrictions;
 pub(crate) mod closures;
@@ -22,6 +24,7 @@ mod reachable;
 pub(crate) mod renew_routes;
 pub(crate) mod ring_lanes;
 pub(crate) mod roads;
+pub(crate) mod standing;
 pub(crate) mod walk;
 mod wander;
 pub(crate) mod waypoint;

@@ -6,12 +6,13 @@ use laneweave_models::Style;
 use laneweave_network::{Ground, LaneletIndex, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
-use crate::route::closures::{Closures, Standing};
+use crate::route::closures::Closures;
 use crate::route::fitting_speed::Outlook;
 use crate::route::guidance::Guidance;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::renew_routes::Guided;
+use crate::route::standing::Standing;
 use crate::state::clock::Clock;
 use crate::state::driver_parameters::DriverParameters;
 use crate::state::lane::{DriverState, Lane};

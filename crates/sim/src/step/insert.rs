@@ -5,7 +5,7 @@ use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, Class, Position};
 
 use crate::driver::perceive::driver_of;
-use crate::route::closures::Standing;
+use crate::route::standing::Standing;
 use crate::state::command::NewVehicle;
 use crate::state::control::Control;
 use crate::state::goal::Destination;

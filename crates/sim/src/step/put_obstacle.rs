@@ -6,7 +6,7 @@
 
 use laneweave_network::{Footprint, Pose, Position, Rectangle};
 
-use crate::route::closures::Standing;
+use crate::route::standing::Standing;
 use crate::state::control::Control;
 use crate::state::externals::{Body, External, FIRST_OBSTACLE, Kind};
 use crate::state::lane::VehicleId;

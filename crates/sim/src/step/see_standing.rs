@@ -3,8 +3,8 @@
 
 use laneweave_network::{ChainIndex, Network, Position};
 
-use crate::route::closures::Standing;
 use crate::route::roads::Roads;
+use crate::route::standing::Standing;
 use crate::state::control::{Control, Longitudinal};
 use crate::state::externals::{External, Kind};
 use crate::state::lane::VehicleId;

@@ -143,9 +143,12 @@ fn nobody_starts_on_a_road_that_its_class_may_not_use() {
     assert!(buses > taxis && taxis > 0 && emergency > 0, "{buses}, {taxis}, {emergency}");
 }
 
-/// A street of two lanes, the slow one for buses, with a line of five stops in it that departs every minute.
-fn with_line(flow: f64, seed: u64) -> World {
-    let network = street(3000.0, |_, lane| if lane == 0 { Classes::BUS_LANE } else { Classes::ALL });
+const WITH_BUS_LANE: fn(usize, usize) -> Classes =
+    |_, lane| if lane == 0 { Classes::BUS_LANE } else { Classes::ALL };
+
+/// A street of two lanes with these `classes`, with a line of five stops in the slow one that departs `every_s` [s].
+fn with_line(classes: fn(usize, usize) -> Classes, every_s: f64, flow: f64, seed: u64) -> World {
+    let network = street(3000.0, classes);
     let population = vec![Share { weight: 1.0, first: 0, count: 1 }];
     let mut demand =
         Demand::over(&network, Places::at_gates(&network), flow, Fleet::with_trucks(0.1), population);
@@ -164,7 +167,7 @@ fn with_line(flow: f64, seed: u64) -> World {
         origin: 0,
         stops: (first..first + 5).map(|destination| LineStop { destination, rest_s: 20.0 }).collect(),
         destination: 0,
-        departures: Departures { first_s: 10.0, every_s: 60.0, until_s: 600.0 },
+        departures: Departures { first_s: 10.0, every_s, until_s: 600.0 },
     });
     let setup = Setup { step: 0.1, seed, threads: 1 };
     World::new(network, vec![drivers::conservative()], demand, setup)
@@ -175,7 +178,7 @@ fn with_line(flow: f64, seed: u64) -> World {
 #[test]
 fn buses_of_a_line_rest_at_each_stop_for_their_time_and_leave_the_map() {
     for seed in 1..4 {
-        let mut world = with_line(800.0, seed);
+        let mut world = with_line(WITH_BUS_LANE, 60.0, 800.0, seed);
         assert_eq!(world.line_without_a_route(), None);
         let mut standing = std::collections::BTreeMap::new();
         for step in 0..12_000 {
@@ -202,8 +205,24 @@ fn buses_of_a_line_rest_at_each_stop_for_their_time_and_leave_the_map() {
 }
 
 #[test]
+fn the_next_bus_waits_behind_one_that_rests_at_its_stop_and_others_pass() {
+    for classes in [WITH_BUS_LANE, |_, _| Classes::ALL] {
+        let mut world = with_line(classes, 25.0, 600.0, 1);
+        (0..12_000).for_each(|_| world.step());
+        let LineCount { departed, served, missed } = world.lines()[0];
+        assert_eq!(departed, 24);
+        assert!(served >= 115 && missed <= 3, "{served} served, {missed} missed");
+        let counters = world.counters();
+        assert_eq!([counters.collisions, counters.overlaps, counters.stuck], [0; 3]);
+        // The others lose little time: a bus rests for 20 s at each of five stops.
+        let mean = world.counters().distance / (world.counters().updates as f64 * 0.1);
+        assert!(mean > 8.0, "{mean} m/s");
+    }
+}
+
+#[test]
 fn a_saved_world_goes_on_with_its_line() {
-    let (mut one, mut other) = (with_line(800.0, 1), with_line(800.0, 1));
+    let [mut one, mut other] = [0, 0].map(|_| with_line(WITH_BUS_LANE, 60.0, 800.0, 1));
     (0..1500).for_each(|_| one.step());
     other.restore(&one.save().expect("it is saved")).expect("it is restored");
     for _ in 0..3000 {
