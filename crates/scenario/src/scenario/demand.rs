@@ -138,23 +138,19 @@ fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Res
     Ok(())
 }
 
-/// Checks that somebody of the demand may start at every origin with a rate, and that every line, and every row of the
-/// table of origins and destinations, has a route.
+/// Checks that somebody of the demand may start at every origin for which it gives a rate, and that every line, and
+/// every row of the table of origins and destinations, has a route.
 ///
 /// # Errors
 /// The first origin at which nobody may start, or the first line or row without a route.
 pub(super) fn check_ways(scenario: &Scenario, origin: &Origin, world: &World) -> Result<(), Fault> {
     for (start, number) in world.demand().origins.iter().zip(0..) {
-        let network = world.network();
-        let lanes = start.place.chains().iter().map(|it| network.chain(*it).classes);
-        let classes = lanes.fold(Classes::NONE, Classes::and);
-        let is_for_nobody = world.starting_at(number).is_empty() && classes != Classes::ALL;
-        if start.rate.highest() > 0.0 && is_for_nobody {
-            let (id, classes) = (start.place.id(), classes.names());
-            let what = format!(
-                "the lanes of the entrance {id} are for {classes} only, and the demand has none of these"
-            );
-            let remedy = "give the demand a share of one of these classes, or remove the entrance from it";
+        let id = start.place.id().to_string();
+        let is_named =
+            scenario.demand.entrances.contains_key(&id) || scenario.demand.od.iter().any(|it| it.from == id);
+        if is_named && start.rate.highest() > 0.0 && world.starting_at(number).is_empty() {
+            let what = for_nobody(&start.place, world.network());
+            let remedy = "give the demand a share of those who may, or remove the entrance from it";
             return Err(Fault::new(origin.place(&["demand"]), what, remedy));
         }
     }
@@ -171,6 +167,20 @@ pub(super) fn check_ways(scenario: &Scenario, origin: &Origin, world: &World) ->
         }
     }
     Ok(())
+}
+
+/// Why no class of the demand starts at `place`.
+fn for_nobody(place: &Place, network: &Network) -> String {
+    let lanes = place.chains().iter().map(|it| network.chain(*it).classes);
+    let (id, classes) = (place.id(), lanes.fold(Classes::NONE, Classes::and));
+    if classes == Classes::ALL {
+        format!("no class of the demand may drive from the entrance {id} to any of its exits")
+    } else {
+        format!(
+            "the lanes of the entrance {id} are for {} only, and the demand has none of these",
+            classes.names()
+        )
+    }
 }
 
 fn place_in_row(origin: &Origin, number: usize, key: &str) -> String {
