@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::bend::note_slow_places;
 use crate::chain::{Beside, Chain, ChainIndex, Position, join};
-use crate::class::Classes;
+use crate::class::{Class, Classes};
 use crate::gate::{MINIMUM_GATE_LENGTH, gates, is_end_of_a_road, lane_drops};
 use crate::junction::Junctions;
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
@@ -141,14 +141,33 @@ fn runs(lanelets: &[Lanelet], previous: &[Vec<LaneletIndex>]) -> Vec<Vec<Lanelet
 }
 
 /// Notes the classes for which chains end: all, if the chain is one of `lane_drops`; or those that may use it, but
-/// nothing that follows.
+/// nothing that follows, if lane changes lead to a lane on which they go on. Without one, the road ends for them.
 fn note_ends(chains: &mut [Chain], lane_drops: &[ChainIndex]) {
-    for index in 0..chains.len() {
-        let Chain { following, classes, .. } = &chains[index];
-        let may_follow = following.iter().map(|it| chains[it.at()].classes).reduce(Classes::and);
-        let ends_for = may_follow.map_or(Classes::NONE, |it| classes.without(it));
-        let is_restricted = *classes != Classes::ALL || !ends_for.is_empty();
-        (chains[index].ends_for, chains[index].is_restricted) = (ends_for, is_restricted);
+    let stays_behind = |chain: &Chain| {
+        let may_follow = chain.following.iter().map(|it| chains[it.at()].classes).reduce(Classes::and);
+        may_follow.map_or(Classes::NONE, |it| chain.classes.without(it))
+    };
+    let left_behind: Vec<Classes> = chains.iter().map(stays_behind).collect();
+    let is_dropped = |index: usize| lane_drops.contains(&ChainIndex(index as u32));
+    let ends_for = |index: usize| {
+        let leaves = |class: &Class| {
+            let (mut lanes, mut next) = (vec![index], 0);
+            while let Some(at) = lanes.get(next).copied() {
+                next += 1;
+                let beside = chains[at].left.iter().chain(&chains[at].right).map(|it| it.chain.at());
+                let open = beside.filter(|it| chains[*it].classes.has(*class));
+                let new: Vec<usize> = open.filter(|it| !lanes.contains(it)).collect();
+                lanes.extend(new);
+            }
+            let goes_on = |it: usize| !left_behind[it].has(*class) && !is_dropped(it);
+            lanes.into_iter().any(goes_on)
+        };
+        left_behind[index].iter().filter(leaves).collect()
+    };
+    let ends_for: Vec<Classes> = (0..chains.len()).map(ends_for).collect();
+    for (chain, ends_for) in chains.iter_mut().zip(ends_for) {
+        chain.is_restricted = chain.classes != Classes::ALL || !ends_for.is_empty();
+        chain.ends_for = ends_for;
     }
     lane_drops.iter().for_each(|it| chains[it.at()].ends_for = Classes::ALL);
 }

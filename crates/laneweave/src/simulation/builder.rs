@@ -68,7 +68,7 @@ impl Builder {
         self
     }
 
-    /// Vehicles per hour in total, split over the entrances by their number of lanes.
+    /// Vehicles per hour in total, split over the entrances by their number of lanes for cars.
     #[must_use]
     pub fn vehicles_per_hour(mut self, vehicles_per_hour: f64) -> Builder {
         self.scenario.demand.vehicles_per_hour = Some(vehicles_per_hour);

@@ -57,12 +57,12 @@ impl Simulation {
     /// Where trips can start, and where they can end.
     pub fn places(&self) -> [Vec<&Place>; 2] {
         let demand = self.world().demand();
-        [demand.origins.iter().map(|it| &it.place).collect(), demand.destinations.iter().collect()]
+        [demand.origins.iter().map(|it| &it.place).collect(), demand.exits().iter().collect()]
     }
 
     /// Where trips can end, by the smallest lanelet id.
     pub fn destinations(&self) -> Vec<i64> {
-        self.world().demand().destinations.iter().map(Place::id).collect()
+        self.world().demand().exits().iter().map(Place::id).collect()
     }
 
     /// Whether a trip can lead from one of the [`Simulation::origins`] to one of the [`Simulation::destinations`].

@@ -49,7 +49,7 @@ pub(super) fn demand(
     }
     add_lines(scenario, origin, network, &mut demand)?;
     demand.headways = wanted.headways.into();
-    headways::check(&demand, origin)?;
+    headways::check(&demand, network, origin)?;
     Ok(demand)
 }
 
@@ -195,7 +195,7 @@ fn ends(
 ) -> Result<(usize, usize), Fault> {
     let origins = demand.origins.iter().map(|it| &it.place);
     let from = named(origins, &row.from, "entrance", &place("from"))?;
-    let to = named(demand.destinations.iter(), &row.to, "exit", &place("to"))?;
+    let to = named(demand.exits().iter(), &row.to, "exit", &place("to"))?;
     Ok((from, to))
 }
 

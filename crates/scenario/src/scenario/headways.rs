@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use laneweave_network::Network;
 use laneweave_sim::{self as sim, Demand, HeadwayError};
 
 use super::Origin;
@@ -97,9 +98,9 @@ impl From<Headways> for sim::Headways {
 ///
 /// # Errors
 /// The first origin at which they are not.
-pub(super) fn check(demand: &Demand, origin: &Origin) -> Result<(), Fault> {
+pub(super) fn check(demand: &Demand, network: &Network, origin: &Origin) -> Result<(), Fault> {
     for it in &demand.origins {
-        let Err(error) = demand.headways.check(it.rate_of_a_lane()) else { continue };
+        let Err(error) = demand.headways.check(it.rate_of_a_lane(network)) else { continue };
         let (key, remedy) = match error {
             HeadwayError::Minimum { .. } => {
                 ("minimum_s", format!("choose less, or reduce the demand at the entrance {}", it.place.id()))

@@ -56,8 +56,7 @@ fn usual_rest() -> f64 {
     20.0
 }
 
-/// Least time between two departures [s], and greatest time at a stop [s]; ours.
-const SHORTEST_INTERVAL: f64 = 1.0;
+/// Greatest time at a stop [s]; ours.
 const LONGEST_REST: f64 = 3600.0;
 
 /// Adds the lines of a scenario to `demand`, with their stops as its last destinations.
@@ -140,7 +139,7 @@ fn check_times(line: &Line, place: impl Fn(&str) -> String) -> Result<(), Fault>
     let until = line.until_s.unwrap_or(LONGEST);
     let times = [
         ("first_s", "a first departure at", line.first_s, [0.0, LONGEST]),
-        ("every_s", "an interval of", line.every_s, [SHORTEST_INTERVAL, LONGEST]),
+        ("every_s", "an interval of", line.every_s, [Departures::SHORTEST, LONGEST]),
         ("until_s", "a last departure at", until, [line.first_s, LONGEST]),
     ];
     for (key, what, value, [from, to]) in times {
@@ -175,7 +174,13 @@ fn inner_place(stop: &Stop, class: Class, network: &Network) -> Result<InnerPlac
     let Position { chain, x: start } = network.start_of(index);
     let body = class.body().length;
     // The vehicle stands in its lane, and its trip would end beyond it.
-    let latest = lanelet.length().min(network.chain(chain).length - LineStop::MARGIN - start);
+    let lane = network.chain(chain);
+    let end = if lane.ends_for.has(class) {
+        lane.driven_until(class.is_long()) - LineStop::BEFORE_A_LANE_END
+    } else {
+        lane.length - LineStop::MARGIN
+    };
+    let latest = lanelet.length().min(end - start);
     let earliest = (body - start).max(0.0);
     if !(earliest..=latest).contains(&position_m) {
         let what = format!("a position of {position_m} m on lanelet {id}");
@@ -187,6 +192,10 @@ fn inner_place(stop: &Stop, class: Class, network: &Network) -> Result<InnerPlac
         return Err(("position_m", what, remedy));
     }
     let (junctions, x) = (&network.junctions, start + position_m);
+    if !lane.takes(x, class) {
+        let what = format!("lanelet {id} is too narrow for a {} there", class.body().name);
+        return Err(("position_m", what, "choose another place".into()));
+    }
     let mut zones = junctions.on(chain).crossings.iter().map(|it| junctions.reach(*it));
     if let Some(zone) = zones.find(|it| it.start < x && x - body < it.end) {
         let what = format!("a {} would rest in a conflict area", class.body().name);

@@ -92,7 +92,7 @@ pub fn stands_for(world: &World, spot: Spot) -> StandsFor {
     let stop = junction.stop.map(|it| (it, before_a_junction(world, &scene, spot, it)));
     let merge =
         junction.leader.map(|it| (it.ahead.gap.max(it.stop), StandsFor::After(before_it(&scene, spot))));
-    let end = lane_end(&scene, spot.chain).map(|it| it.of_entry(&scene, spot) - motion.x);
+    let end = lane_end(&scene, spot.chain, from.class).map(|it| it.of_entry(&scene, spot) - motion.x);
     let place = lane_change
         .last_place
         .is_finite()

@@ -34,8 +34,18 @@ pub enum WorldError {
         /// Its upper limit, in words.
         limit: String,
     },
-    /// A line has places that the demand has not.
-    #[error("line {0} has an origin, a stop or a destination that the demand does not have")]
+    /// The demand has more stops than destinations.
+    #[error("{stops} of {destinations} destinations cannot be stops of lines")]
+    Stops {
+        /// Number of stops.
+        stops: usize,
+        /// Number of destinations.
+        destinations: usize,
+    },
+    /// A line has places that the demand has not, or impossible times.
+    #[error(
+        "line {0} has an origin, a stop or a destination that the demand does not have, or an impossible time"
+    )]
     Line(String),
     /// The headways are impossible.
     #[error(transparent)]
@@ -44,7 +54,10 @@ pub enum WorldError {
     #[error("{0} destinations: there can be {1} at most")]
     Destinations(usize, usize),
     /// The routes to all destinations would not fit into memory.
-    #[error("the ways to {destinations} destinations over {chains} lanes would not fit into memory")]
+    #[error(
+        "the ways to {destinations} destinations over {chains} lanes, for the different classes of vehicles, would \
+         not fit into memory"
+    )]
     Ways {
         /// Number of destinations.
         destinations: usize,

@@ -32,6 +32,8 @@ impl LineStop {
     /// The trip end of a stop lies so far beyond the place where the front bumper stands [m] (ours): whoever rests
     /// there never reaches it.
     pub const MARGIN: f64 = 5.0;
+    /// A stop in a lane that ends lies so far before the end [m] (ours): drivers keep that road to leave the lane.
+    pub const BEFORE_A_LANE_END: f64 = 20.0;
 }
 
 /// Times at even intervals.
@@ -46,6 +48,9 @@ pub struct Departures {
 }
 
 impl Departures {
+    /// The least time between two departures [s]; ours.
+    pub const SHORTEST: f64 = 1.0;
+
     /// The time of the departure with this `number`, from 0 on [s]; infinite if there is none.
     pub(crate) fn time(&self, number: u32) -> f64 {
         let time = self.first_s + self.every_s * f64::from(number);

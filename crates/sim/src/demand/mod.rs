@@ -19,13 +19,13 @@ use laneweave_network::Network;
 
 use crate::demand::error::WorldError;
 use crate::demand::headways::Headways;
-use crate::demand::line::Line;
+use crate::demand::line::{Departures, Line};
 use crate::demand::places::Places;
 use crate::demand::rate::Rate;
 use crate::route::place::Place;
 use crate::state::lane::VehicleId;
 use crate::state::random::{Purpose, Random};
-use crate::state::vehicle::Fleet;
+use crate::state::vehicle::{Classes, Fleet};
 
 /// Which vehicles drive, from where and to where, and how many.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +124,7 @@ impl Demand {
     ///
     /// # Errors
     /// The first number that is not.
-    pub(crate) fn check(&self) -> Result<(), WorldError> {
+    pub(crate) fn check(&self, network: &Network) -> Result<(), WorldError> {
         let rates = self.origins.iter().flat_map(|it| it.rate.values());
         let rates = rates.map(|it| ("a demand in veh/h", it, Demand::LARGEST_RATE));
         let weights = self.origins.iter().flat_map(|it| &it.weights);
@@ -151,19 +151,42 @@ impl Demand {
             return Err(WorldError::NoDriverParameters);
         }
         for origin in &self.origins {
-            self.headways.check(origin.rate_of_a_lane())?;
+            self.headways.check(origin.rate_of_a_lane(network))?;
         }
-        let is_known = |it: &Line| {
-            let mut stops = it.stops.iter().map(|stop| stop.destination).chain([it.destination]);
-            it.origin < self.origins.len() && stops.all(|it| it < self.destinations.len())
-        };
-        if let Some(line) = self.lines.iter().find(|it| !is_known(it)) {
+        if self.stops > self.destinations.len() {
+            return Err(WorldError::Stops { stops: self.stops, destinations: self.destinations.len() });
+        }
+        if let Some(line) = self.lines.iter().find(|it| !self.knows(it)) {
             return Err(WorldError::Line(line.name.clone()));
         }
         if self.destinations.len() > Demand::MOST_DESTINATIONS {
             return Err(WorldError::Destinations(self.destinations.len(), Demand::MOST_DESTINATIONS));
         }
         Ok(())
+    }
+
+    /// Whether a line has places that the demand has, and possible times.
+    fn knows(&self, line: &Line) -> bool {
+        let Departures { first_s, every_s, until_s } = line.departures;
+        let [exits, all] = [self.exits().len(), self.destinations.len()];
+        let mut rests = line.stops.iter().map(|stop| stop.rest_s);
+        line.origin < self.origins.len()
+            && line.destination < exits
+            && line.stops.iter().all(|it| (exits..all).contains(&it.destination))
+            && rests.all(|it| it.is_finite() && it >= 0.0)
+            && first_s >= 0.0
+            && (Departures::SHORTEST..f64::INFINITY).contains(&every_s)
+            && !until_s.is_nan()
+    }
+
+    /// The destinations that are no stops of lines.
+    pub fn exits(&self) -> &[Place] {
+        &self.destinations[..self.destinations.len() - self.stops]
+    }
+
+    /// The classes that drive: those of the fleet and of lines.
+    pub(crate) fn classes(&self) -> Classes {
+        self.lines.iter().map(|it| it.class).collect::<Classes>().and(self.fleet.classes())
     }
 
     /// A rate above this at one origin is an error [veh/h].
@@ -174,8 +197,16 @@ impl Demand {
 
 impl Origin {
     /// The highest rate in each of its lanes [1/s].
-    pub fn rate_of_a_lane(&self) -> f64 {
-        self.rate.highest() / (SECONDS_PER_HOUR * self.place.chains().len() as f64)
+    pub fn rate_of_a_lane(&self, network: &Network) -> f64 {
+        self.rate.highest() / (SECONDS_PER_HOUR * self.lanes(network) as f64)
+    }
+
+    /// The number of its lanes: of those for cars, if there is one.
+    pub(crate) fn lanes(&self, network: &Network) -> usize {
+        match self.place.lanes(network) {
+            0 => self.place.chains().len(),
+            count => count,
+        }
     }
 }
 

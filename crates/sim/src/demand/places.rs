@@ -1,12 +1,12 @@
 //! The places of a map at which trips start and end.
 
-use laneweave_network::{ChainIndex, Gate, LaneletIndex, Network};
+use laneweave_network::{ChainIndex, Classes, Gate, LaneletIndex, Network};
 
 use crate::demand::Demand;
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::navigate::Navigator;
 use crate::route::place::{InnerPlace, Place};
-use crate::state::vehicle::{Fleet, LONGEST};
+use crate::state::vehicle::LONGEST;
 
 /// The places of a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +36,9 @@ impl Places {
             if cut_off.is_empty() {
                 break;
             }
-            let restrictions = ClassRestrictions::of(network, &Fleet::default());
-            let navigator = Navigator::with_restrictions(network, destination, restrictions);
-            cut_off.retain(|it| !navigator.leads(network, &self.origins[*it], 0));
+            let restrictions = ClassRestrictions::of(network, Classes::NONE);
+            let navigator = Navigator::with_restrictions(network, destination, restrictions, 0);
+            cut_off.retain(|it| !navigator.leads(network, &self.origins[*it], 0, Classes::ALL));
         }
         let mut numbers = 0..self.origins.len();
         self.origins.retain(|_| numbers.next().is_some_and(|it| cut_off.binary_search(&it).is_err()));

@@ -131,7 +131,7 @@ impl Source {
         let mut further = demand.origins.len() as u32..;
         let sources = demand.origins.iter().zip(0..).map(|(origin, number)| {
             let lanes = queues(network, &origin.place);
-            let count = if demand.headways == Headways::Exponential { 1 } else { lanes.len() };
+            let count = if demand.headways == Headways::Exponential { 1 } else { origin.lanes(network) };
             let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
             let destinations: Vec<_> =
                 navigator.restrictions().map(|it| destinations(network, navigator, origin, it)).collect();

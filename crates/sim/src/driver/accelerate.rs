@@ -6,7 +6,7 @@ use laneweave_models::follow::{Ahead, CarFollowing, FollowingModel};
 use laneweave_network::ChainIndex;
 
 use crate::driver::fall_in::{falling_in, staying_behind};
-use crate::driver::lane_end::{self, LaneEnd, is_leaving};
+use crate::driver::lane_end::{ends_for_some, is_leaving, lane_end};
 use crate::driver::last_place::{before_the_last_place, kept_room, within_window};
 use crate::driver::me::pace;
 use crate::driver::merge;
@@ -50,12 +50,14 @@ pub(crate) struct OpenRoad {
 }
 
 impl OpenRoad {
-    /// The open road of `chain`. A lane that ends, at `lane_end`, or that is closed ahead, has none. Nor has any lane
+    /// The open road of `chain`. A lane that ends, or that is closed ahead, has none. Nor has any lane
     /// where some drivers have errors in what they see: they need a closer look.
     #[inline]
-    pub(crate) fn on(scene: &Scene, chain: ChainIndex, lane_end: Option<LaneEnd>) -> OpenRoad {
+    pub(crate) fn on(scene: &Scene, chain: ChainIndex) -> OpenRoad {
         let [first_place, last_place] = scene.network.junctions.places(chain);
-        let ends = lane_end.is_some() || scene.navigator.closures().are_near(chain) || scene.errors.is_some();
+        let ends = ends_for_some(scene, chain)
+            || scene.navigator.closures().are_near(chain)
+            || scene.errors.is_some();
         let fork_clearance = if ends { f64::INFINITY } else { scene.network.chain(chain).fork_clearance };
         OpenRoad { from: last_place.max(fork_clearance), fork_clearance, first_place }
     }
@@ -138,16 +140,16 @@ impl Wish {
 }
 
 /// Every case. A vehicle in a lane change follows both leaders: both entries take the lower acceleration.
-pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
-    let chosen = beside_others(scene, spot, in_lane(scene, clock, spot, lane_end));
+pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot) -> Chosen {
+    let chosen = beside_others(scene, spot, in_lane(scene, clock, spot));
     if !scene.driver(spot).phase.is_between_lanes() {
         return chosen;
     }
     let id = scene.motion(spot).id;
     let other = scene.lane_change(spot).counterpart.and_then(|it| {
         let index = scene.lanes[it.chain.at()].find(id, it.x)?;
-        let (there, lane_end) = (Spot { chain: it.chain, index }, lane_end::lane_end(scene, it.chain));
-        Some(beside_others(scene, there, in_lane(scene, clock, there, lane_end)))
+        let there = Spot { chain: it.chain, index };
+        Some(beside_others(scene, there, in_lane(scene, clock, there)))
     });
     let other = other.unwrap_or(chosen);
     let lower = if other.acceleration < chosen.acceleration { other } else { chosen };
@@ -158,7 +160,7 @@ pub(crate) fn with_care(scene: &Scene, clock: Clock, spot: Spot, lane_end: Optio
 
 /// The acceleration for one entry. Its leader may be on another chain, and kinematics may have to decide.
 #[inline(never)]
-fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -> Chosen {
+fn in_lane(scene: &Scene, clock: Clock, spot: Spot) -> Chosen {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let slows = driver.desired > driver.limit_desired && scene.style_of(driver).manner.looks_ahead();
     let true_leader = scene.ahead(scene.viewpoint(spot));
@@ -176,7 +178,7 @@ fn in_lane(scene: &Scene, clock: Clock, spot: Spot, lane_end: Option<LaneEnd>) -
     };
     let wish = Wish { acceleration, cause: BrakingCause::Leader };
     let wish = if slows { slowing(scene, clock, motion, driver, wish) } else { wish };
-    let (wish, end) = reacting_to_more(scene, clock, spot, wish, lane_end);
+    let (wish, end) = reacting_to_more(scene, clock, spot, wish);
     let junction = junction::look(scene, spot);
     let (wish, stop) = at_junction(scene, motion, driver, &junction, wish, clock.dt);
     let Wish { acceleration: wish, cause } = wish;
@@ -306,18 +308,13 @@ fn within(value: f64, low: f64, high: f64) -> f64 {
 }
 
 /// The acceleration of a driver who reacts to more than its leader, and the end of its lane.
-fn reacting_to_more(
-    scene: &Scene,
-    clock: Clock,
-    spot: Spot,
-    behind_leader: Wish,
-    lane_end: Option<LaneEnd>,
-) -> (Wish, Option<Ahead>) {
+fn reacting_to_more(scene: &Scene, clock: Clock, spot: Spot, behind_leader: Wish) -> (Wish, Option<Ahead>) {
     let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let (mut wish, mut obstacle) = (behind_leader, None);
     if driver.phase == Phase::Wants || driver.needs_full_update {
         wish = beyond_the_leader(scene, clock, spot, wish);
     }
+    let lane_end = lane_end(scene, spot.chain, driver.class);
     if let Some(lane_end) = lane_end.filter(|_| !is_leaving(scene, spot)) {
         let end = lane_end.of_entry(scene, spot);
         let kept = within_window(kept_room(scene, clock, spot, end - motion.x), end - lane_end.window);

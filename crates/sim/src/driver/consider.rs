@@ -11,6 +11,7 @@ use crate::driver::beliefs::Beliefs;
 use crate::driver::choice::{Choice, desire};
 use crate::driver::leave::departure;
 use crate::driver::me::{Attending, Me};
+use crate::driver::other_goal::other_goal;
 use crate::driver::perceive::{Perception, driver_of, lane_rule};
 use crate::driver::plan::{Ask, Concern, Note, Outbox, Plan, Request};
 use crate::driver::stuck::is_stuck;
@@ -18,7 +19,6 @@ use crate::driver::turn::next_turn;
 use crate::driver::window;
 use crate::record::events::DrivingEventKind;
 use crate::route::waypoint::Waypoint;
-use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeKind, LaneChangeState, Phase};
 use crate::state::moment::Moment;
 use crate::state::push_tight::push_tight;
@@ -26,9 +26,6 @@ use crate::state::random::Purpose;
 use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot};
 
-/// A driver who stands this long [s], this near to the last place for a change [m], gives the change up.
-const STANDS_IN_VAIN: f32 = 120.0;
-const AT_THE_PLACE: f64 = 20.0;
 /// A driver in a wrong lane reacts to the last place for a change within this distance [m].
 const REACTS_WITHIN: f64 = 400.0;
 /// A vehicle that stands this long is stuck, unless what it waits for is sure to end [s].
@@ -145,7 +142,7 @@ fn follow_route(
     };
     if let Some(other) = other_goal(scene, me, waypoint, standing) {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
-        outbox.counters.lost += u64::from(other.is_none());
+        outbox.counters.lost += u64::from(scene.navigator.number(other).is_none());
         return Concern { rerouted: Some(other), gives_up: true, ..concern };
     }
     if !waypoint.leads_on(motion.x) {
@@ -242,28 +239,6 @@ fn choose(
         let ask = Ask::Want(choice.want(perception.here().anticipated_speed));
         outbox.requests.push(Request { urgency, id, chain, x, ask });
     }
-}
-
-/// The new destination of a driver who has stood for `standing` [s]. It needs one if it cannot reach its own by its
-/// `waypoint`, or has waited for the change in vain. It takes the nearest destination that it can still reach, or
-/// follows the road. `None` if it keeps its own.
-fn other_goal(scene: &Scene, me: &Me, waypoint: &Waypoint, standing: f32) -> Option<Destination> {
-    let (spot, goal, x) = (me.spot, me.driver.goal.destination(), me.motion.x);
-    let found = if !waypoint.leads_on(x) {
-        scene.navigator.nearest(scene.network, goal, spot.chain, x)
-    } else if standing >= STANDS_IN_VAIN
-        && waypoint.last_place - x < AT_THE_PLACE
-        && scene.closure_ahead(scene.viewpoint(spot)).is_none()
-    {
-        // Only a route that needs no lane change here helps it.
-        Some(scene.navigator.nearest_in_lane(goal, spot.chain, waypoint.last_place + AT_THE_PLACE)?)
-    } else {
-        return None;
-    };
-    // A driver with a reservation keeps the route for which it was granted. A driver who follows the road has no
-    // destination to give up.
-    let is_free = goal.is_some() && !scene.has_reservation(spot, f64::NEG_INFINITY);
-    (found != goal && is_free).then_some(found)
 }
 
 /// Whether a driver comes to the last place for a necessary change. There it looks for a gap at every step, and wants

@@ -4,7 +4,6 @@ use laneweave_models::braking::HARD_BRAKING;
 use laneweave_network::ChainIndex;
 
 use crate::driver::accelerate::{Chosen, OpenRoad, behind, cause, with_care};
-use crate::driver::lane_end::{LaneEnd, lane_end};
 use crate::driver::plan::{Outbox, Plan, Upkeep, Waiting};
 use crate::driver::two_lanes::{behind_both, behind_offside};
 use crate::junction::reservations::NO_RESERVATION;
@@ -20,12 +19,12 @@ use crate::view::scene::{Scene, Spot};
 #[inline(never)]
 pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut Plan, outbox: &mut Outbox) {
     let lane = &scene.lanes[chain.at()];
-    let (motions, end) = (lane.motions(), lane_end(scene, chain));
+    let motions = lane.motions();
     if plan.next.capacity() < motions.len() {
         plan.next.reserve_exact(lane.capacity());
     }
     let upcoming = upcoming(scene, chain);
-    let road = OpenRoad::on(scene, chain, end);
+    let road = OpenRoad::on(scene, chain);
     let mut updates = 0;
     for (index, (motion, driver)) in motions.iter().zip(lane.drivers()).enumerate() {
         if let Some(upcoming) = upcoming {
@@ -37,7 +36,7 @@ pub(crate) fn drive(scene: &Scene, clock: Clock, chain: ChainIndex, plan: &mut P
             None => {
                 let spot = Spot { chain, index };
                 drive_in_two_lanes(scene, clock, spot, &road, plan)
-                    .unwrap_or_else(|| drive_with_care(scene, clock, spot, end, plan, outbox))
+                    .unwrap_or_else(|| drive_with_care(scene, clock, spot, plan, outbox))
             }
         };
         let (mut next, distance) = moved(motion, acceleration, stretch, clock.dt);
@@ -70,11 +69,11 @@ fn usual(
 
 /// The acceleration that the driver at `spot` chooses for the next step [m/s²].
 pub(crate) fn acceleration(scene: &Scene, clock: Clock, spot: Spot) -> f64 {
-    let (motion, driver, end) = (scene.motion(spot), scene.driver(spot), lane_end(scene, spot.chain));
+    let (motion, driver) = (scene.motion(spot), scene.driver(spot));
     let leader = scene.motions(spot.chain).get(spot.index + 1).filter(|_| driver.only_follows());
-    let road = OpenRoad::on(scene, spot.chain, end);
+    let road = OpenRoad::on(scene, spot.chain);
     usual(scene, clock, &road, motion, driver, leader)
-        .unwrap_or_else(|| with_care(scene, clock, spot, end).acceleration)
+        .unwrap_or_else(|| with_care(scene, clock, spot).acceleration)
 }
 
 /// The lane that the drivers of a neighbouring lane will look at next. `None` where there are few lanes: these stay
@@ -115,12 +114,11 @@ fn drive_with_care(
     scene: &Scene,
     clock: Clock,
     spot: Spot,
-    lane_end: Option<LaneEnd>,
     plan: &mut Plan,
     outbox: &mut Outbox,
 ) -> (f64, f64) {
     let driver = scene.driver(spot);
-    let chosen = with_care(scene, clock, spot, lane_end);
+    let chosen = with_care(scene, clock, spot);
     let Chosen { acceleration, by_kinematics, touches, junction, per_metre, .. } = chosen;
     let in_emergency = by_kinematics || (driver.in_emergency && acceleration < 0.0);
     // A shadow counts too: kinematics decides for the vehicle in either lane.

@@ -214,7 +214,7 @@ impl Gap {
             return Err(Hindrance::TooLittleRoad);
         }
         // A driver does not change into a lane that ends if it could not stop before the end.
-        let end = lane_end(scene, self.chain).map(|it| it.open_for(scene.driver(spot).class) - self.x);
+        let end = lane_end(scene, self.chain, scene.driver(spot).class).map(|it| it.open - self.x);
         let needed = || 2.0 * crossing + stopping_way(speed);
         if end.is_some_and(|it| it < needed()) {
             return Err(Hindrance::TooLittleRoad);

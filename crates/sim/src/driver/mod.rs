@@ -7,7 +7,7 @@
 //! * `drive.rs`, `accelerate.rs`, `fall_in.rs`, `two_lanes.rs`, `merge.rs`, `stopping.rs` and `lane_end.rs` the next
 //!   motion; `steering.rs` how slow drivers move sideways
 //! * `request_reservation.rs` junctions; `stuck.rs` who stands for nothing
-//! * `beliefs.rs` and `leave.rs` how drivers take guidance
+//! * `beliefs.rs` and `leave.rs` how drivers take guidance; `other_goal.rs` when they give their destination up
 //! * `obey.rs` external vehicles; `plan.rs` what a step writes down; `intention.rs` and `wish.rs` what is read of it
 
 pub(crate) mod accelerate;
@@ -27,6 +27,7 @@ pub(crate) mod me;
 pub(crate) mod merge;
 pub(crate) mod misperception;
 pub(crate) mod obey;
+pub(crate) mod other_goal;
 pub(crate) mod perceive;
 pub(crate) mod plan;
 pub(crate) mod request_reservation;

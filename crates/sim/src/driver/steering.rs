@@ -57,7 +57,7 @@ pub(super) fn has_road(scene: &Scene, spot: Spot) -> bool {
     let leader = scene.ahead(from).filter(|it| it.speed < STANDSTILL).map(|it| it.gap);
     // Before an end only half of the change has to be done.
     let closure = scene.end_of_lane_ahead(from).map(|it| 2.0 * it.way_out);
-    let end = lane_end(scene, spot.chain).map(|it| 2.0 * (it.drawn - scene.motion(spot).x));
+    let end = lane_end(scene, spot.chain, from.class).map(|it| 2.0 * (it.drawn - scene.motion(spot).x));
     leader.is_none_or(|it| it - NEAR_A_VEHICLE - DONE >= LEAST_ROAD)
         && [closure, end].into_iter().flatten().all(|it| it - NEAR_THE_END - DONE >= LEAST_ROAD)
 }

@@ -35,16 +35,16 @@ enum Blocker {
 /// user and could not be passed. Vehicles that wait for each other are all stuck.
 #[inline(never)]
 pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Survey) -> bool {
-    let mut at = spot;
+    let (mut at, mut behind) = (spot, spot);
     for _ in 0..LONGEST {
-        if scene.driver(at).is_external {
-            return at != spot && could_go_round(scene, at, clock);
+        if is_held(scene, at) {
+            return at != spot && could_go_round(scene, at, clock) && has_a_way_out(scene, behind);
         }
         match blocker(scene, at, clock, survey) {
             Blocker::Nothing | Blocker::Other if acceleration(scene, clock, at) > 0.0 => return false,
             Blocker::Other if waits_for_a_user(scene, at, survey) => return false,
             Blocker::Vehicle(next) if scene.motion(next).speed >= STANDSTILL => return false,
-            Blocker::Vehicle(next) => at = next,
+            Blocker::Vehicle(next) => (at, behind) = (next, at),
             Blocker::Light => return false,
             // A vehicle that is itself about to drive off did not stand because of another.
             Blocker::Nothing => return at == spot,
@@ -54,12 +54,23 @@ pub(crate) fn is_stuck(scene: &Scene, spot: Spot, clock: Clock, survey: &mut Sur
     true
 }
 
-/// Whether drivers could have gone round the vehicle at `at`, which a user drives, for as long as whoever is stuck has
+/// Whether a user drives the vehicle at `at`, or it rests at a stop of its line.
+fn is_held(scene: &Scene, at: Spot) -> bool {
+    let external = || scene.externals.of(scene.motion(at).id);
+    scene.driver(at).is_external || external().is_some_and(|it| !it.kind.is_left_to_its_driver())
+}
+
+/// Whether drivers could have gone round the vehicle at `at`, which is held, for as long as whoever is stuck has
 /// stood.
 fn could_go_round(scene: &Scene, at: Spot, clock: Clock) -> bool {
     let external = scene.externals.of(scene.motion(at).id);
     let since = external.and_then(|it| it.passable_since);
     since.is_some_and(|it| it <= clock.step && clock.since(it) >= f64::from(STUCK_AFTER))
+}
+
+/// Whether the vehicle at `at` is not yet so near to what stands on its lane that it may not change lanes any more.
+fn has_a_way_out(scene: &Scene, at: Spot) -> bool {
+    scene.closure_ahead(scene.viewpoint(at)).is_some()
 }
 
 /// Whether the vehicle at `at`, which waits at or in the junction that was surveyed, waits for a vehicle that a user
@@ -74,7 +85,7 @@ fn waits_for_a_user(scene: &Scene, at: Spot, survey: &Survey) -> bool {
     while let Some(zone) = zones.get(next).copied() {
         next += 1;
         for (_, reservation) in scene.reservations.order(zone) {
-            if scene.externals.of(reservation.vehicle).is_some() {
+            if scene.externals.of(reservation.vehicle).is_some_and(|it| !it.kind.is_left_to_its_driver()) {
                 return true;
             }
             let beyond = reservation.holds.iter().map(|it| it.zone).filter(|it| !zones.contains(it));

@@ -3,7 +3,6 @@
 
 use crate::driver::accelerate::{OpenRoad, behind};
 use crate::driver::fall_in::staying_behind;
-use crate::driver::lane_end::lane_end;
 use crate::driver::steering::creeps_up_to;
 use crate::junction::reservations::NO_RESERVATION;
 use crate::state::clock::Clock;
@@ -28,7 +27,7 @@ pub(crate) fn behind_both(scene: &Scene, clock: Clock, spot: Spot, road: &OpenRo
     if !is_it || !other_lane.drivers()[other].only_follows_both() {
         return None;
     }
-    let other_road = OpenRoad::on(scene, counterpart.chain, lane_end(scene, counterpart.chain));
+    let other_road = OpenRoad::on(scene, counterpart.chain);
     let here = follow(scene, clock, driver, here, road)?;
     let there = follow(scene, clock, driver, there, &other_road)?;
     Some(if there < here { there } else { here })

@@ -130,7 +130,7 @@ pub(crate) fn is_reached(next: u32, oldest: u32, count: usize, but_for: usize) -
 /// and of each bend, and changes lanes at the last place. None without a destination, or without a route to it.
 pub(crate) fn free_time(driver: &Outlook, from: Position) -> Option<f64> {
     let Outlook { network, navigator, destination, .. } = *driver;
-    destination?;
+    navigator.number(destination)?;
     let Position { mut chain, mut x } = from;
     let mut time = 0.0;
     // No route passes a chain twice, except for a detour at its beginning.

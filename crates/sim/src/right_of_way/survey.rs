@@ -67,13 +67,13 @@ fn points(
     let mut walk = scene.walk(from).within(until.get());
     while let Some(Leg { chain, start: base, .. }) = walk.next() {
         let places = &junctions.on(chain).places[..];
-        let trip_end = base + scene.navigator.trip_end(from.destination, chain);
-        let trip_end = if trip_end > 0.0 { trip_end } else { f64::INFINITY };
+        let way_end = base + scene.navigator.end_of_way(from.destination, chain);
+        let way_end = if way_end > 0.0 { way_end } else { f64::INFINITY };
         // A vehicle whose front is beyond a place has passed it.
         let passed = places.partition_point(|it| base + it.station <= 0.0);
         for place in &places[passed..] {
             let at = base + place.station;
-            if at > trip_end {
+            if at > way_end {
                 return f64::INFINITY;
             }
             if at > until.get() {
@@ -86,7 +86,7 @@ fn points(
                 return at;
             }
         }
-        if trip_end < f64::INFINITY {
+        if way_end < f64::INFINITY {
             return f64::INFINITY;
         }
         walk.look_on(until.get());

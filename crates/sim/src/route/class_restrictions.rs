@@ -3,7 +3,7 @@
 
 use laneweave_network::{Chain, ChainIndex, Classes, Network, Point, Polyline};
 
-use crate::state::vehicle::{Class, Fleet};
+use crate::state::vehicle::Class;
 
 /// Long vehicles avoid lanes whose centre line turns tighter than this [m]: the mean of the inner radius 5.3 m and the
 /// outer radius 12.5 m of the turning circle that each vehicle in the European Union must manage (Directive 96/53/EC,
@@ -32,24 +32,29 @@ impl Default for ClassRestrictions {
 }
 
 impl ClassRestrictions {
-    /// The restrictions of the classes on `network`. That no turn is tight for them counts for those of `fleet` only.
-    pub(crate) fn of(network: &Network, fleet: &Fleet) -> ClassRestrictions {
+    /// The restrictions of the classes on `network`, where these classes `drive`. Others, which users may put there,
+    /// have that of one that may use the same lanes.
+    pub(crate) fn of(network: &Network, drive: Classes) -> ClassRestrictions {
         let mut sets: Vec<Classes> = network.chains.iter().map(|it| it.classes).collect();
         sets.sort_unstable();
         sets.dedup();
-        let tight = fleet.classes().iter().any(Class::is_long).then(|| tight(network)).flatten();
-        let is_alike = |one: Class, other: Class| {
-            (tight.is_none() || one.is_long() == other.is_long())
-                && sets.iter().all(|set| set.has(one) == set.has(other))
-        };
-        let mut classes: Vec<Class> = Vec::new();
-        let of_class = Class::ALL.map(|class| {
-            let known = classes.iter().position(|it| is_alike(*it, class));
-            known.unwrap_or_else(|| {
+        let tight = drive.iter().any(Class::is_long).then(|| tight(network)).flatten();
+        let may_use_the_same =
+            |one: Class, other: Class| sets.iter().all(|set| set.has(one) == set.has(other));
+        let (mut classes, mut of_class) = (vec![Class::Car], [0; Class::ALL.len()]);
+        let all = Class::ALL.into_iter();
+        let (driven, others): (Vec<Class>, Vec<Class>) = all.partition(|it| drive.has(*it));
+        for class in driven.into_iter().chain(others) {
+            let is_as_long = |it: &Class| tight.is_none() || it.is_long() == class.is_long();
+            let alike = || classes.iter().enumerate().filter(|it| may_use_the_same(*it.1, class));
+            let same = alike().find(|it| is_as_long(it.1));
+            let same = same.or_else(|| alike().next().filter(|_| !drive.has(class)));
+            let known = same.map_or(classes.len(), |it| it.0);
+            if known == classes.len() {
                 classes.push(class);
-                classes.len() - 1
-            }) as u8
-        });
+            }
+            of_class[class as usize] = known as u8;
+        }
         ClassRestrictions { of_class, classes, tight }
     }
 
@@ -156,12 +161,9 @@ mod tests {
         all.extend(turns.iter().zip(2..).map(|(it, id)| lanelet(id, turn(*it, 1.0), &[last])));
         all.push(lanelet(99, straight(100.0), &[]));
         let network = Network::new(all, DrivingSide::Right).unwrap();
-        let restrictions = ClassRestrictions::of(
-            &network,
-            &Fleet { trucks: 0.2, buses: 0.2, motorcycles: 0.2, ..Fleet::default() },
-        );
+        let restrictions = ClassRestrictions::of(&network, Classes::ALL);
         let navigator =
-            Navigator::with_restrictions(&network, &[Place::Gate(network.exits[0].clone())], restrictions);
+            Navigator::with_restrictions(&network, &[Place::Gate(network.exits[0].clone())], restrictions, 0);
         let goal = navigator.seen_by(class, Some(0));
         assert_eq!((navigator.number(goal), navigator.seen_by(class, goal)), (Some(0), goal));
         navigator.waypoint(goal, ChainIndex(0)).next
@@ -183,7 +185,8 @@ mod tests {
     #[test]
     fn who_avoids_nothing_sees_the_roads_as_all_do() {
         let network = Network::new(vec![lanelet(1, turn(5.0, 1.0), &[])], DrivingSide::Right).unwrap();
-        assert_eq!(ClassRestrictions::of(&network, &Fleet::default()).count(), 1);
-        assert_eq!(ClassRestrictions::of(&network, &Fleet::with_trucks(0.1)).count(), 2);
+        let cars = Classes::from_iter([Class::Car]);
+        assert_eq!(ClassRestrictions::of(&network, cars).count(), 1);
+        assert_eq!(ClassRestrictions::of(&network, Classes::ALL).count(), 2);
     }
 }

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use laneweave_network::{ChainIndex, Class, LaneletIndex, Network, Position, Side};
 
 use crate::route::navigate::Navigator;
-use crate::route::standing::Standing;
+use crate::route::standing::{Does, Standing};
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
 
@@ -35,19 +35,18 @@ struct Stretch {
     leaves_until: f64,
     /// From this distance on drivers know of it [m].
     known_from: f64,
-    /// What closes it crawls on: nobody has to stop before it.
-    crawls: bool,
+    /// What that does which closes it.
+    does: Does,
     /// The lanes beside it that are open.
     open: OpenLanes,
 }
 
 impl Stretch {
-    /// Whether something stands there shortly before or behind `trip_end` [m]. Who goes there, such as the next bus to
-    /// the same stop, waits behind it.
-    fn stands_at(&self, trip_end: f64) -> bool {
+    /// Whether a vehicle rests there shortly before `stop`, or beyond it [m]. The next one to the same stop waits.
+    fn is_waited_for(&self, stop: f64) -> bool {
         /// So far behind it, somebody who has gone round it is back in its lane [m] (ours).
         const BACK: f64 = 60.0;
-        self.known_from < Navigator::SIGNED && trip_end < self.reach[1] + BACK
+        self.does == Does::Rest && stop < self.reach[1] + BACK
     }
 }
 
@@ -87,7 +86,7 @@ impl Closures {
             closures.add(
                 network,
                 chain,
-                Stretch { reach, leaves_until: x, known_from, crawls: false, open: [None; 2] },
+                Stretch { reach, leaves_until: x, known_from, does: Does::Stay, open: [None; 2] },
             );
         }
         let lanelets = closures.clone();
@@ -98,12 +97,14 @@ impl Closures {
         }
         for at in 0..closures.standing.len() {
             let it = closures.standing[at];
-            let open = lanelets.lanes_round(network, &it, &closures.standing);
+            let way_out = it.way_out(network);
+            let open = lanelets.lanes_round(network, &it, way_out, &closures.standing);
             closures.passable.push(open != [None; 2]);
             if let Some(lanes) = open.iter().flatten().map(|it| it.0).min() {
-                let ([rear, front], known_from) = (it.reach, Standing::SEEN);
-                let (reach, leaves_until) = ([it.kept(lanes), front], rear - Standing::LEAST_ROOM);
-                let stretch = Stretch { reach, leaves_until, known_from, crawls: it.crawls, open };
+                let (front, known_from) = (it.reach[1], Standing::SEEN);
+                let reach = [Standing::kept(way_out, lanes), front];
+                let leaves_until = way_out - Standing::LEAST_ROOM;
+                let stretch = Stretch { reach, leaves_until, known_from, does: it.does, open };
                 closures.add(network, it.chain, stretch);
             }
         }
@@ -125,22 +126,26 @@ impl Closures {
         }
     }
 
-    /// The open lanes beside something that stands in a lane, where all this is `standing`; none where drivers cannot
-    /// go round it, or would wait for a gap in a junction.
-    fn lanes_round(&self, network: &Network, it: &Standing, standing: &[Standing]) -> OpenLanes {
-        let (chain, [rear, front]) = (it.chain, it.reach.map(|x| x.max(0.0)));
+    /// The open lanes beside the `way_out` before something that stands in a lane, where all this is `standing`; none
+    /// where drivers cannot go round it, or would wait for a gap in a junction.
+    fn lanes_round(
+        &self,
+        network: &Network,
+        it: &Standing,
+        way_out: f64,
+        standing: &[Standing],
+    ) -> OpenLanes {
+        let (chain, [rear, front]) = (it.chain, [way_out, it.reach[1]].map(|x| x.max(0.0)));
         let is_free = |at: &Position| {
             let reach = [at.x - Standing::ROOM_BEFORE, at.x + front - rear + Standing::ROOM_BEYOND];
             let stands_there = |it: &Standing| it.chain == at.chain && overlap(it.reach, reach);
             let is_closed = self.on(at.chain).iter().any(|it| overlap(it.reach, reach));
             !is_closed && !standing.iter().any(stands_there)
         };
-        let junctions = &network.junctions;
-        let passing = if it.crawls { Standing::PASSING } else { 0.0 };
-        if it.crawls
-            && front + passing > network.chain(chain).length
-            && network.chain(chain).following.len() != 1
-        {
+        let (junctions, here) = (&network.junctions, network.chain(chain));
+        let crawls = it.does == Does::Crawl;
+        let passing = if crawls { Standing::PASSING } else { 0.0 };
+        if crawls && front + passing > here.length && here.following.len() != 1 {
             return [None; 2];
         }
         let waits = [rear - Standing::ROOM_BEFORE, rear + passing];
@@ -265,9 +270,9 @@ impl Navigator {
         }
         let mut closed_until = f64::NEG_INFINITY;
         for leg in self.walk(network, destination, chain, -x).within(within) {
-            let trip_end = self.trip_end(destination, leg.chain);
-            let is_passed = |it: &&Stretch| !it.stands_at(trip_end);
-            for Stretch { reach, leaves_until, known_from, crawls, open } in
+            let stop = self.stop_on(destination, leg.chain);
+            let is_passed = |it: &&Stretch| !stop.is_some_and(|stop| it.is_waited_for(stop));
+            for Stretch { reach, leaves_until, known_from, does, open } in
                 self.closures.on(leg.chain).iter().filter(is_passed)
             {
                 let [begin, end] = reach.map(|it| leg.start + it);
@@ -279,7 +284,7 @@ impl Navigator {
                     return Some(ClosureAhead {
                         ahead,
                         way_out: last.max(ahead),
-                        crawls: *crawls,
+                        crawls: *does == Does::Crawl,
                         open: *open,
                     });
                 }
@@ -312,6 +317,25 @@ impl Navigator {
         }
         let changes = self.changes_by(network, destination, &open, waypoint.changes, Navigator::IN_A_ROW);
         Cow::Owned(Waypoint { changes, last_place, ..waypoint.into_owned() })
+    }
+
+    /// Where drivers get to beside what stays on `chain` between these places [m], if behind it no road is left on
+    /// which they could get back to their way to `destination`.
+    pub(crate) fn cut_off(
+        &self,
+        destination: Destination,
+        chain: ChainIndex,
+        [from, to]: [f64; 2],
+        class: Class,
+    ) -> Option<Position> {
+        let needed = class.body().length + Standing::ROOM;
+        let stays = |it: &&Stretch| it.does == Does::Stay && it.reach[1] > from && it.reach[0] < to;
+        self.closures.on(chain).iter().filter(stays).find_map(|it| {
+            let way = it.reach[1] - it.leaves_until + needed;
+            let mut behind = it.open.iter().flatten().map(|(_, at)| Position::new(at.chain, at.x + way));
+            let leads_on = |at: Position| self.waypoint(destination, at.chain).leads_on(at.x);
+            if behind.clone().any(leads_on) { None } else { behind.next() }
+        })
     }
 
     /// The fewest changes by one of the `open` lanes beside a closed stretch, where a lane that does not lead on takes

@@ -60,7 +60,7 @@ impl Navigator {
 
     /// Plans all routes to `destinations`, for classes that avoid nothing.
     pub fn towards(network: &Network, destinations: &[Place]) -> Navigator {
-        Navigator::with_restrictions(network, destinations, ClassRestrictions::default())
+        Navigator::with_restrictions(network, destinations, ClassRestrictions::default(), 0)
     }
 
     /// Plans all routes to `destinations`, at most [`Demand::MOST_DESTINATIONS`], for classes with their restrictions.
@@ -68,12 +68,13 @@ impl Navigator {
         network: &Network,
         destinations: &[Place],
         restrictions: ClassRestrictions,
+        stops: usize,
     ) -> Navigator {
         let mut navigator = Navigator {
             tables: Vec::new(),
             onward: Onward::default(),
             of_restriction: destinations.len() + 1,
-            stops: 0,
+            stops,
             recommended: Vec::new(),
             links: Links::default(),
             measurements: 0,
@@ -97,10 +98,16 @@ impl Navigator {
         navigator
     }
 
-    /// The same, where so many of the last destinations are stops of lines: no driver chooses one.
-    #[must_use]
-    pub(crate) fn with_stops(self, stops: usize) -> Navigator {
-        Navigator { stops, ..self }
+    /// Whether a destination is a stop of a line.
+    pub(crate) fn is_stop(&self, destination: Destination) -> bool {
+        self.number(destination).is_some_and(|it| it >= self.chosen())
+    }
+
+    /// Where on `chain` the place beyond the stop is [m], if `destination` is a stop on it.
+    pub(super) fn stop_on(&self, destination: Destination, chain: ChainIndex) -> Option<f64> {
+        let is_there = |it: &f64| it.is_finite();
+        let stop = self.is_stop(destination).then(|| self.waypoint(destination, chain).end);
+        stop.filter(is_there)
     }
 
     /// Number of destinations that drivers choose.
@@ -121,8 +128,11 @@ impl Navigator {
         Planner { network, into, links, restrictions, restriction }
     }
 
-    /// Records that the trips of drivers who use `table` end at `place`.
+    /// Records that the trips of drivers who use `table` end at `place`, unless it is a stop of a line.
     pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
+        if table % self.of_restriction >= self.chosen() {
+            return;
+        }
         if let Place::Inside(InnerPlace { chain, station, .. }) = place {
             let goal = Goal::from(Some(table as u16));
             self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
@@ -244,10 +254,13 @@ impl Navigator {
         self.restrictions.of_class(class)
     }
 
-    /// A destination with the restriction of `class`.
+    /// A destination with the restriction of `class`. Who follows the road has the table of its restriction, too.
     pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
-        let number = usize::from(destination?) % self.of_restriction;
-        Some((self.restrictions.of_class(class) * self.of_restriction + number) as u16)
+        let restriction = self.restrictions.of_class(class);
+        let wanders = self.of_restriction - 1;
+        let number = destination.map_or(wanders, |it| usize::from(it) % self.of_restriction);
+        let table = (restriction * self.of_restriction + number) as u16;
+        (number < wanders || restriction > 0).then_some(table)
     }
 
     /// The class restriction of a table.
@@ -255,9 +268,11 @@ impl Navigator {
         usize::from(table) / self.of_restriction % self.restrictions.count()
     }
 
-    /// The index of the destination in the list of destinations, for any class restriction and way.
+    /// The index of the destination in the list of destinations, for any class restriction and way; `None` for who
+    /// follows the road.
     pub fn number(&self, destination: Destination) -> Option<usize> {
-        destination.map(|it| usize::from(it) % self.of_restriction)
+        let number = usize::from(destination?) % self.of_restriction;
+        (number < self.of_restriction - 1).then_some(number)
     }
 
     /// The chains on the route from the start of `chain` to `destination`, including those after lane changes.
@@ -293,10 +308,11 @@ impl Navigator {
         self.onward.next(network, chain, self.table(destination))
     }
 
-    /// Where on `chain` the trips to `destination` end [m]; infinite where they go on.
+    /// Where on `chain` the way to `destination` ends [m], with the trip or at a stop; infinite where it goes on.
     #[inline]
-    pub(crate) fn trip_end(&self, destination: Destination, chain: ChainIndex) -> f64 {
-        if self.trip_ends(chain).is_empty() { f64::INFINITY } else { self.waypoint(destination, chain).end }
+    pub(crate) fn end_of_way(&self, destination: Destination, chain: ChainIndex) -> f64 {
+        let goes_on = self.stops == 0 && self.trip_ends(chain).is_empty();
+        if goes_on { f64::INFINITY } else { self.waypoint(destination, chain).end }
     }
 
     /// The waypoint of `chain` from `x` on. Where `x` is too late for the usual route, that of the detour over its end.

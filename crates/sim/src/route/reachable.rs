@@ -1,6 +1,6 @@
 //! Which destinations can be reached from where.
 
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Classes, Network};
 
 use crate::route::navigate::Navigator;
 use crate::route::place::{InnerPlace, Place};
@@ -49,9 +49,10 @@ impl Navigator {
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
     }
 
-    /// Whether any class can reach the destination with this number from `place`.
-    pub(crate) fn leads(&self, network: &Network, place: &Place, number: u16) -> bool {
-        self.restrictions().any(|first| self.leads_to(network, place, first + number))
+    /// Whether any of these `classes` can reach the destination with this number from `place`.
+    pub(crate) fn leads(&self, network: &Network, place: &Place, number: u16, classes: Classes) -> bool {
+        let table = |class| self.seen_by(class, Some(number));
+        classes.iter().filter_map(table).any(|it| self.leads_to(network, place, it))
     }
 
     /// Whether the destination with this table can be reached from `place`, by who may be there. From a trip end inside

@@ -40,8 +40,7 @@ impl Roads {
         restrictions: ClassRestrictions,
         random: Random,
     ) -> Roads {
-        let navigator = Navigator::with_restrictions(&network, destinations, restrictions);
-        let navigator = navigator.with_stops(stops);
+        let navigator = Navigator::with_restrictions(&network, destinations, restrictions, stops);
         let driver_parameters = DriverParameters::new(driver_parameters);
         Roads { network, navigator, driver_parameters, random, guidance: None, ground: OnceLock::new() }
     }

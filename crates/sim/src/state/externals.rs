@@ -34,9 +34,9 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// The same, if a user drives it: a vehicle of a line leaves its line.
-    pub(crate) fn driven(self) -> Kind {
-        if let Kind::Line(_) = self { Kind::Driven } else { self }
+    /// Whether its own driver drives it: that of a line, between stops.
+    pub(crate) fn is_left_to_its_driver(self) -> bool {
+        matches!(self, Kind::Line(Service { rests_until: None, .. }))
     }
 }
 

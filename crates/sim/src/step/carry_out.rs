@@ -45,7 +45,10 @@ impl CarryingOut<'_> {
             // It is on the road already.
             Command::Insert(_) => vehicle.into_iter().for_each(|it| self.log.note_inserted(it)),
             Command::Remove(id) => self.remove(*id),
-            Command::Control(id, control) => self.control(*id, *control),
+            Command::Control(id, control) => {
+                self.leave_line(*id);
+                self.control(*id, *control);
+            }
             Command::SetStyle(id, style) => {
                 if let Some(parameters) = names::parameters_of(self.roads, self.arrivals.demand(), style, *id)
                 {
@@ -53,6 +56,7 @@ impl CarryingOut<'_> {
                 }
             }
             Command::SetDestination(id, destination) => {
+                self.leave_line(*id);
                 let number = destination.and_then(|it| names::destination(self.arrivals.demand(), it));
                 self.set_destination(*id, number);
             }
@@ -112,7 +116,7 @@ impl CarryingOut<'_> {
             }
         };
         let was_on_its_own_path = external.body.is_some();
-        (external.control, external.kind) = (control, external.kind.driven());
+        external.control = control;
         match control {
             Control::Pose { .. } if external.body.is_some() => {}
             Control::Pose { .. } => external.body = self.body(id),
@@ -134,14 +138,31 @@ impl CarryingOut<'_> {
         }
     }
 
+    /// A vehicle of a line of which a user disposes leaves its line, and drives to its end.
+    fn leave_line(&mut self, id: VehicleId) {
+        let external = self.traffic.externals().of(id);
+        let Some(Kind::Line(service)) = external.map(|it| it.kind) else { return };
+        if let Some(mut external) = self.traffic.externals_mut().take(id) {
+            clear_obstacles(self.traffic, &mut external);
+        }
+        // Who is passing a junction keeps the way for which its reservation was granted.
+        if !self.has_reservation(id) {
+            let line = &self.arrivals.demand().lines[usize::from(service.line)];
+            self.set_destination(id, Some(line.destination as u16));
+        }
+    }
+
+    /// Whether a vehicle has a reservation of a junction.
+    pub(super) fn has_reservation(&self, id: VehicleId) -> bool {
+        let Some(Spot { chain, index }) = self.spot(id) else { return false };
+        let number = self.traffic.lane(chain).lane_change_states()[index].reservation;
+        self.junctions.reservations().of(number, id).is_some()
+    }
+
     /// Lets a vehicle of a line drive in this way, as its `service` is.
     pub(super) fn direct(&mut self, id: VehicleId, service: Service, control: Control) {
-        let Some(external) = self.traffic.externals_mut().of_mut(id) else { return };
-        let held_before = external.control.holds_still();
-        (external.kind, external.control) = (Kind::Line(service), control);
-        // Who waits behind one that rests is not stuck.
-        if control.holds_still() != held_before {
-            self.change(id, |_, driver, _, _| driver.is_external = control.holds_still());
+        if let Some(external) = self.traffic.externals_mut().of_mut(id) {
+            (external.kind, external.control) = (Kind::Line(service), control);
         }
     }
 

@@ -78,7 +78,7 @@ impl World {
                 let origin = self.origin(*origin)?;
                 in_range("a demand", *vehicles_per_hour, [0.0, Demand::LARGEST_RATE], "veh/h")?;
                 let demand = self.demand();
-                let lanes = demand.origins[origin].place.chains().len() as f64;
+                let lanes = demand.origins[origin].lanes(self.network()) as f64;
                 let of_a_lane = vehicles_per_hour / (SECONDS_PER_HOUR * lanes);
                 demand.headways.check(of_a_lane).map_err(|it| CommandError::Headways(it.to_string()))
             }

@@ -6,9 +6,10 @@ use laneweave_models::braking::is_secure;
 use laneweave_models::change::deceleration_to_avoid;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
 
-use laneweave_network::Position;
+use laneweave_network::{ChainIndex, Position};
 
 use crate::demand::arrivals::Arrivals;
+use crate::demand::line::LineStop;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::driver::perceive::driver_of;
 use crate::driver::stopping::speed_before_a_stop;
@@ -24,6 +25,7 @@ use crate::state::setup::Placement;
 use crate::state::traffic::Traffic;
 use crate::step::put_vehicle::{Named, put};
 use crate::step::reserve_on_entering::{Entry, applicant, entry, reserve};
+use crate::step::serve_stops::speed_before;
 use crate::step::work::Work;
 use crate::view::scene::{Found, Scene, nearer};
 
@@ -122,7 +124,16 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
             (leaves_room && is_let_in && is_free).then_some(0.0)?
         }
     };
+    let to_stop = before_a_stop(scene, arrival, chain, x).map_or(f64::INFINITY, speed_before);
+    let speed = speed.min(to_stop);
     Some(Placement { chain, x, speed, class, parameters, destination })
+}
+
+/// The way that a vehicle of a line has from `x` on `chain` to its first stop [m], if it has one.
+fn before_a_stop(scene: &Scene, arrival: &Arrival, chain: ChainIndex, x: f64) -> Option<f64> {
+    let is_stop = arrival.line.is_some() && scene.navigator.is_stop(arrival.destination);
+    let waypoint = is_stop.then(|| scene.navigator.waypoint(arrival.destination, chain))?;
+    Some(waypoint.distance - x - LineStop::MARGIN)
 }
 
 /// Speed at which a driver enters behind `ahead` [m/s]; `None` if it has to wait.

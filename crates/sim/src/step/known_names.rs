@@ -29,7 +29,7 @@ impl World {
     pub(super) fn destination(&self, name: i64) -> Result<u16, CommandError> {
         let demand = self.arrivals.demand();
         names::destination(demand, name)
-            .ok_or_else(|| unknown("destination", &name.to_string(), ids(demand.destinations.iter())))
+            .ok_or_else(|| unknown("destination", &name.to_string(), ids(demand.exits().iter())))
     }
 
     /// # Errors

@@ -24,8 +24,7 @@ pub(super) fn style(roads: &Roads, demand: &Demand, name: &str) -> Option<usize>
 
 /// The destination with this name.
 pub(super) fn destination(demand: &Demand, name: i64) -> Destination {
-    let chosen = demand.destinations.len() - demand.stops;
-    demand.destinations[..chosen].iter().zip(0..).find(|(it, _)| it.id() == name).map(|(_, number)| number)
+    demand.exits().iter().zip(0..).find(|(it, _)| it.id() == name).map(|(_, number)| number)
 }
 
 /// The origin with this name.

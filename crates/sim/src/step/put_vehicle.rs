@@ -53,7 +53,7 @@ pub(crate) fn put(
         mark: Mark { x, time: clock.time() },
         ..TripRecord::of(id, class, parameters)
     });
-    traffic.enter(chain, entry(roads, clock, &vehicle, id));
+    traffic.enter(chain, entry(roads, clock, &Placement { destination, ..vehicle }, id));
     if let Some(line) = line {
         let kind = Kind::Line(Service { line, stops: 0, rests_until: None });
         traffic.externals_mut().add(External { kind, ..External::new(id, Control::DRIVER, at) });

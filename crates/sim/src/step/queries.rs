@@ -105,10 +105,12 @@ impl World {
         Assignment::new(self.roads.network(), self.roads.navigator(), self.arrivals.demand(), during)
     }
 
-    /// Whether drivers from an origin of the demand can reach one of its destinations, and would choose it.
+    /// Whether drivers of some class of the demand can reach one of its destinations from an origin, and would choose
+    /// it.
     pub fn leads(&self, origin: usize, destination: usize) -> bool {
-        let place = &self.arrivals.demand().origins[origin].place;
-        self.roads.navigator().leads(self.roads.network(), place, destination as u16)
+        let demand = self.arrivals.demand();
+        let (place, classes) = (&demand.origins[origin].place, demand.fleet.classes());
+        self.roads.navigator().leads(self.roads.network(), place, destination as u16, classes)
     }
 
     /// The classes of the demand that start at an origin: those that may use one of its lanes, and reach a destination
@@ -135,7 +137,7 @@ impl World {
             match before.map(|it| &demand.destinations[it.destination]) {
                 Some(Place::Inside(InnerPlace { chain, station, .. })) => {
                     let x = (station - LineStop::MARGIN).max(0.0);
-                    navigator.waypoint_from(network, Some(goal), *chain, x).leads_there()
+                    navigator.waypoint(Some(goal), *chain).leads_on(x)
                 }
                 _ => navigator.leads_to(network, &demand.origins[line.origin].place, goal),
             }

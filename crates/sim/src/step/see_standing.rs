@@ -4,7 +4,7 @@
 use laneweave_network::{ChainIndex, Network, Position};
 
 use crate::route::roads::Roads;
-use crate::route::standing::Standing;
+use crate::route::standing::{Does, Standing};
 use crate::state::control::{Control, Longitudinal};
 use crate::state::externals::{External, Kind};
 use crate::state::lane::VehicleId;
@@ -19,7 +19,7 @@ pub(crate) fn see_standing(roads: &mut Roads, traffic: &mut Traffic) {
         return;
     }
     let (now, before) = (seen(roads.network(), traffic), roads.navigator().closures().standing());
-    let stands = |it: &&Standing| !it.crawls;
+    let stands = |it: &&Standing| it.does != Does::Crawl;
     if !now.iter().filter(stands).eq(before.iter().filter(stands)) {
         close(roads, traffic, |roads| roads.note_standing(now));
     } else if now != before {
@@ -87,16 +87,17 @@ fn crawling(network: &Network, traffic: &Traffic) -> Vec<Standing> {
     let seen = crawling.flat_map(|it| reaches(traffic, it));
     let rough = |it: Standing| {
         let [rear, front] = it.reach.map(|x| (x / WAY).floor() * WAY);
-        Standing { reach: [rear, front + WAY], crawls: true, ..it }
+        Standing { reach: [rear, front + WAY], does: Does::Crawl, ..it }
     };
     seen.map(rough).collect()
 }
 
 /// What an external vehicle covers of lanes.
 fn reaches(traffic: &Traffic, external: &External) -> Vec<Standing> {
+    let does = if matches!(external.kind, Kind::Line(_)) { Does::Rest } else { Does::Stay };
     let of = |chain: ChainIndex, index: usize| {
         let it = &traffic.lane(chain).motions()[index];
-        Standing { chain, reach: [it.rear(), it.x], crawls: false }
+        Standing { chain, reach: [it.rear(), it.x], does }
     };
     let mut all = Vec::new();
     if let Some(Spot { chain, index }) = spot(traffic, external) {

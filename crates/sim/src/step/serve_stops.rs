@@ -31,6 +31,11 @@ enum Next {
     Stays,
 }
 
+/// The speed from which a vehicle brakes for a stop that is `left` ahead [m/s].
+pub(super) fn speed_before(left: f64) -> f64 {
+    (2.0 * BRAKING * left.max(0.0)).sqrt()
+}
+
 /// Lets the vehicles of lines serve their stops.
 pub(super) fn serve_stops(carrying_out: &mut CarryingOut) {
     let services = carrying_out.traffic.externals().all().iter();
@@ -54,12 +59,14 @@ fn next(carrying_out: &CarryingOut, id: VehicleId, service: Service) -> Next {
         return Next::Drives;
     }
     let Some((left, spot)) = left(carrying_out, id, &lines[usize::from(service.line)], service) else {
-        return Next::GoesOn { has_served: false };
+        // Its reservation is for the way to this stop.
+        let keeps_way = carrying_out.has_reservation(id);
+        return if keeps_way { Next::Drives } else { Next::GoesOn { has_served: false } };
     };
     let lane = carrying_out.traffic.lane(spot.chain);
     let (speed, is_between_lanes) =
         (lane.motions()[spot.index].speed, lane.drivers()[spot.index].phase.is_between_lanes());
-    let fastest = (2.0 * BRAKING * left.max(0.0)).sqrt();
+    let fastest = speed_before(left);
     match () {
         () if left < -NEAR => Next::GoesOn { has_served: false },
         () if speed == 0.0 && left < NEAR && !is_between_lanes => Next::Rests,
@@ -69,13 +76,19 @@ fn next(carrying_out: &CarryingOut, id: VehicleId, service: Service) -> Next {
     }
 }
 
-/// The way that a vehicle has left to its next stop [m], and its entry; `None` if no route leads there any more.
+/// The way that a vehicle has left to its next stop [m], and its entry; `None` if it can no longer get there in time on
+/// its route.
 fn left(carrying_out: &CarryingOut, id: VehicleId, line: &Line, service: Service) -> Option<(f64, Spot)> {
     let CarryingOut { roads, traffic, .. } = carrying_out;
     let Position { chain, x } = traffic.externals().of(id)?.at;
-    let index = traffic.lane(chain).find(id, x)?;
-    let to = roads.navigator().seen_by(line.class, Some(line.goal(service.stops)));
-    let waypoint = roads.navigator().waypoint(to, chain);
+    let lane = traffic.lane(chain);
+    let index = lane.find(id, x)?;
+    let (navigator, number) = (roads.navigator(), line.goal(service.stops));
+    // It may follow another route there than the usual one.
+    let own = lane.drivers()[index].goal.destination();
+    let is_there = navigator.number(own) == Some(usize::from(number));
+    let to = if is_there { own } else { navigator.seen_by(line.class, Some(number)) };
+    let waypoint = navigator.waypoint(to, chain);
     let left = waypoint.distance - x - LineStop::MARGIN;
     waypoint.leads_on(x).then_some((left, Spot { chain, index }))
 }

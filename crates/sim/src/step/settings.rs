@@ -6,6 +6,7 @@ use laneweave_network::LightState;
 
 use crate::state::command::Command;
 use crate::state::control::Control;
+use crate::state::externals::Kind;
 use crate::state::lane::VehicleId;
 use crate::step::command_error::CommandError;
 use crate::step::names;
@@ -100,7 +101,10 @@ impl World {
             Command::Control(of, control) => (*of == id).then_some(*control),
             _ => None,
         });
-        waiting.unwrap_or_else(|| self.traffic.externals().of(id).map_or(Control::DRIVER, |it| it.control))
+        waiting.unwrap_or_else(|| {
+            let external = self.traffic.externals().of(id);
+            external.filter(|it| !matches!(it.kind, Kind::Line(_))).map_or(Control::DRIVER, |it| it.control)
+        })
     }
 
     /// The style of the driver of a vehicle on the road.

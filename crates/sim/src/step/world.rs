@@ -71,12 +71,12 @@ impl World {
         if driver_parameters.is_empty() {
             return Err(WorldError::NoDriverParameters);
         }
-        demand.check()?;
+        demand.check(&network)?;
         let (destinations, chains) = (demand.destinations.len(), network.chains.len());
-        if destinations * chains > Navigator::MOST_WAYPOINTS {
+        let restrictions = ClassRestrictions::of(&network, demand.classes());
+        if destinations * chains * restrictions.count() > Navigator::MOST_WAYPOINTS {
             return Err(WorldError::Ways { destinations, chains });
         }
-        let restrictions = ClassRestrictions::of(&network, &demand.fleet);
         let most = usize::from(Goal::NONE) / restrictions.count() - 1;
         if destinations > most {
             return Err(WorldError::Destinations(destinations, most));
@@ -107,7 +107,8 @@ impl World {
         if roads.navigator().offers_a_choice() {
             let destinations = &arrivals.demand().destinations;
             let (count, chains) = (destinations.len(), roads.network().chains.len());
-            if count * chains * Navigator::WAYS > Navigator::MOST_WAYPOINTS {
+            let tables = count * roads.navigator().restrictions().count() * Navigator::WAYS;
+            if tables * chains > Navigator::MOST_WAYPOINTS {
                 return Err(WorldError::Ways { destinations: count, chains });
             }
             let guided = roads.guide(destinations, traffic.clock().steps(interval));

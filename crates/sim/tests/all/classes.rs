@@ -2,7 +2,8 @@
 
 use laneweave_network::{Class, Classes, Network, Position};
 use laneweave_sim::{
-    Demand, Departures, Fleet, InnerPlace, Line, LineCount, LineStop, Place, Places, Setup, Share, World,
+    Command, CommandError, Control, Demand, Departures, Fleet, Headways, InnerPlace, Line, LineCount,
+    LineStop, NewVehicle, Place, Places, Setup, Share, World, WorldError,
 };
 
 use crate::roads::{Road, drivers};
@@ -148,6 +149,18 @@ const WITH_BUS_LANE: fn(usize, usize) -> Classes =
 
 /// A street of two lanes with these `classes`, with a line of five stops in the slow one that departs `every_s` [s].
 fn with_line(classes: fn(usize, usize) -> Classes, every_s: f64, flow: f64, seed: u64) -> World {
+    let setup = Setup { step: 0.1, seed, threads: 1 };
+    with_stops_at(300.0, classes, every_s, flow, setup).expect("the set-up makes sense")
+}
+
+/// The same, with stops at this `place` of each 500 m.
+fn with_stops_at(
+    place: f64,
+    classes: fn(usize, usize) -> Classes,
+    every_s: f64,
+    flow: f64,
+    setup: Setup,
+) -> Result<World, WorldError> {
     let network = street(3000.0, classes);
     let population = vec![Share { weight: 1.0, first: 0, count: 1 }];
     let mut demand =
@@ -156,7 +169,7 @@ fn with_line(classes: fn(usize, usize) -> Classes, every_s: f64, flow: f64, seed
     let lanelets = [1, 3, 5, 7, 9].map(|id| (id, network.lanelet_with(id).expect("it is there")));
     let places = lanelets.map(|(id, it)| {
         let Position { chain, x } = network.start_of(it);
-        Place::Inside(InnerPlace { id, chain, station: x + 300.0 + LineStop::MARGIN })
+        Place::Inside(InnerPlace { id, chain, station: x + place + LineStop::MARGIN })
     });
     demand.destinations.extend(places);
     demand.origins.iter_mut().for_each(|it| it.weights.extend([0.0; 5]));
@@ -169,10 +182,7 @@ fn with_line(classes: fn(usize, usize) -> Classes, every_s: f64, flow: f64, seed
         destination: 0,
         departures: Departures { first_s: 10.0, every_s, until_s: 600.0 },
     });
-    let setup = Setup { step: 0.1, seed, threads: 1 };
-    World::new(network, vec![drivers::conservative()], demand, setup)
-        .expect("the set-up makes sense")
-        .audited()
+    World::new(network, vec![drivers::conservative()], demand, setup).map(World::audited)
 }
 
 #[test]
@@ -231,4 +241,108 @@ fn a_saved_world_goes_on_with_its_line() {
     }
     assert_eq!((one.state_hash(), one.lines()), (other.state_hash(), other.lines()));
     assert!(one.lines()[0].served > 5);
+}
+
+#[test]
+fn a_stop_just_behind_the_entrance_is_served_at_any_step() {
+    for step in [0.1, 0.5, 1.0] {
+        let setup = Setup { step, seed: 1, threads: 1 };
+        let mut world = with_stops_at(20.0, WITH_BUS_LANE, 60.0, 400.0, setup).expect("it makes sense");
+        (0..(1200.0 / step) as usize).for_each(|_| world.step());
+        let LineCount { departed, served, missed } = world.lines()[0];
+        assert_eq!((departed, served, missed), (10, 50, 0), "in steps of {step} s");
+    }
+}
+
+#[test]
+fn a_bus_goes_round_an_obstacle_before_its_stop() {
+    for before_stop in [0.0, 40.0, 90.0] {
+        let mut world = with_line(|_, _| Classes::ALL, 60.0, 400.0, 1);
+        let ground = world.obstacle_in_lane(3, 300.0 - before_stop, [4.5, 1.8]).expect("it is possible");
+        world.put_obstacle(0, &ground).expect("its place is free");
+        (0..12_000).for_each(|_| world.step());
+        let LineCount { departed, served, missed } = world.lines()[0];
+        assert_eq!((departed, served + missed), (10, 50));
+        assert!(served >= 40, "{served} served with an obstacle {before_stop} m before the second");
+        let counters = world.counters();
+        assert_eq!([counters.collisions, counters.overlaps, counters.stuck], [0; 3]);
+        assert!(world.vehicles().all(|it| it.driver.class != Class::Bus), "all have left");
+    }
+}
+
+#[test]
+fn a_line_needs_an_interval() {
+    for every_s in [0.0, -1.0, 0.5, f64::NAN] {
+        let setup = Setup { step: 0.1, seed: 1, threads: 1 };
+        let refused = with_stops_at(300.0, WITH_BUS_LANE, every_s, 400.0, setup).err();
+        assert!(matches!(refused, Some(WorldError::Line(_))), "{every_s} s: {refused:?}");
+    }
+}
+
+#[test]
+fn a_bus_of_which_a_user_disposes_leaves_its_line() {
+    let mut world = with_line(WITH_BUS_LANE, 900.0, 0.0, 1);
+    let is_resting = |world: &World| world.vehicles().any(|it| it.speed() == 0.0);
+    while !is_resting(&world) {
+        world.step();
+    }
+    let (bus, at) = world.vehicles().map(|it| (it.id(), it.x())).next().expect("it rests");
+    assert_eq!(world.control_of(bus), Control::DRIVER, "no user drives it");
+    let exit = world.demand().exits()[0].id();
+    world.command(Command::SetDestination(bus, Some(exit))).expect("it is possible");
+    (0..50).for_each(|_| world.step());
+    let now = world.vehicles().next().expect("it drives");
+    assert!(now.x() > at + 5.0 && now.speed() > 1.0, "it does not go on resting");
+    (0..6000).for_each(|_| world.step());
+    assert_eq!((completed(&world), world.on_road()), (1, 0), "it has left at its destination");
+    assert_eq!(world.lines()[0].served, 0);
+}
+
+#[test]
+fn who_has_no_destination_goes_where_its_class_may_go() {
+    let bus_lane =
+        |row, lane| if lane == 0 && (2..4).contains(&row) { Classes::BUS_LANE } else { Classes::ALL };
+    for class in [Class::Bus, Class::Car, Class::Truck] {
+        let mut world = traffic(street(3000.0, bus_lane), 0.0, 1);
+        let style = "conservative".into();
+        let new =
+            NewVehicle { lanelet: 1, position_m: 50.0, speed_mps: 10.0, class, style, destination: None };
+        world.command(Command::Insert(new)).expect("its place is free");
+        let special = world.network().start_of(world.network().lanelet_with(5).expect("it is there")).chain;
+        let mut was_there = false;
+        for _ in 0..6000 {
+            world.step();
+            was_there |= world.vehicles().any(|it| it.spot.chain == special);
+        }
+        assert_eq!(world.on_road(), 0, "the {class:?} has left at the end");
+        assert!((world.counters().distance - 2950.0).abs() < 3.0, "{} m", world.counters().distance);
+        assert_eq!(was_there, class == Class::Bus);
+    }
+}
+
+#[test]
+fn a_road_that_goes_on_for_buses_only_ends_for_cars() {
+    let street_of_buses = |row, _| if row >= 3 { Classes::BUS_LANE } else { Classes::ALL };
+    let world = traffic(street(3000.0, street_of_buses), 600.0, 1);
+    for chain in &world.network().chains {
+        assert_eq!(chain.ends_for, Classes::NONE, "there is no lane beside it on which others go on");
+    }
+}
+
+#[test]
+fn a_demand_that_a_user_sets_is_divided_by_the_lanes_for_cars() {
+    let network = street(1000.0, WITH_BUS_LANE);
+    let population = vec![Share { weight: 1.0, first: 0, count: 1 }];
+    let mut demand = Demand::over(&network, Places::at_gates(&network), 600.0, FLEET, population);
+    demand.headways = Headways::Shifted { minimum: 2.0 };
+    let setup = Setup { step: 0.1, seed: 1, threads: 1 };
+    let mut world =
+        World::new(network, vec![drivers::conservative()], demand, setup).expect("it makes sense");
+    let origin = world.demand().origins[0].place.id();
+    let mut set = |vehicles_per_hour| world.command(Command::SetDemand { origin, vehicles_per_hour });
+    assert!(
+        matches!(set(3000.0), Err(CommandError::Headways(_))),
+        "one lane does not bear a vehicle each 1.2 s"
+    );
+    set(1500.0).expect("it does each 2.4 s");
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{DrivingSide, Extension, Lanelet, LightIndex, SignalPlan};
+use laneweave_network::{Class, DrivingSide, Extension, Lanelet, LightIndex, SignalPlan};
 use laneweave_sim::Place;
 use serde_json::{Value, json};
 
@@ -117,7 +117,7 @@ fn entrances(prepared: &Prepared) -> Rows {
 }
 
 fn exits(prepared: &Prepared) -> Rows {
-    let all = &prepared.world.demand().destinations;
+    let all = prepared.world.demand().exits();
     let row = |place: &Place| Row::Entry { name: place.id().to_string(), value: 1.0, what: lanes(place) };
     let note = "The exits of this map:".into();
     Rows { note, rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
@@ -139,7 +139,7 @@ fn od(prepared: &Prepared) -> Rows {
 /// The first entrance with the first exit that it has a route to, and its demand [veh/h].
 fn pair(prepared: &Prepared) -> Option<(i64, i64, f64)> {
     let world = &prepared.world;
-    let exits = &world.demand().destinations;
+    let exits = world.demand().exits();
     prepared.origins.iter().enumerate().find_map(|(from, (place, rate))| {
         let to = (0..exits.len()).find(|to| world.leads(from, *to))?;
         Some((place.id(), exits[to].id(), *rate))
@@ -150,7 +150,8 @@ fn pair(prepared: &Prepared) -> Option<(i64, i64, f64)> {
 fn line(prepared: &Prepared) -> Rows {
     let network = prepared.world.network();
     let length = |id: i64| network.lanelet_with(id).map_or(0.0, |it| network.lanelets[it.at()].length());
-    let tables = pair(prepared).map(|(from, to, _)| {
+    let has_room = |(from, ..): &(i64, i64, f64)| length(*from) >= 2.0 * Class::Bus.body().length;
+    let tables = pair(prepared).filter(has_room).map(|(from, to, _)| {
         let keys = vec![
             ("name", json!("1")),
             ("from", json!(from.to_string())),

@@ -4,6 +4,7 @@ mod abuse;
 mod closed_lanes;
 mod commands;
 mod courtesy;
+mod cut_off;
 mod identity;
 mod lanes;
 mod parameters;
