@@ -9,6 +9,7 @@ mod checkpoint;
 mod circles;
 mod crates;
 mod cut_ins;
+mod default_demand;
 mod door;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Network, Position};
 
 use super::movement::Movement;
 use super::{Bottleneck, Load, Roads};
@@ -11,17 +11,25 @@ use super::{Bottleneck, Load, Roads};
 /// so that only one of them can be on the junction (the conflict technique of Wu, 2000, Brilon and Wu, 2001); and the
 /// lanes from which drivers give way.
 pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
-    let at =
-        |movement: &Movement| Bottleneck::Junction(roads.lanelet(movement.chain, movement.start.max(0.0)));
+    let place = |number: usize| {
+        let Movement { chain, start, .. } = movements[number];
+        Position::new(chain, start.max(0.0))
+    };
+    let load = |share: f64, members: &[usize]| {
+        let at: Vec<Position> = members.iter().copied().map(place).collect();
+        Load { share, of: Bottleneck::Junction(roads.lanelet(at[0].chain, at[0].x)), at }
+    };
     let together = (0..movements.len()).map(|first| {
         let members = clique(movements, first);
         let others = |it: usize| members.iter().copied().filter(move |other| *other != it);
         let share = members.iter().map(|it| movements[*it].share_beside(others(*it))).sum();
-        Load { share, of: at(&movements[first]) }
+        load(share, &members)
     });
     let approaches = approaches(roads.network, movements);
-    let giving_way =
-        approaches.iter().map(|it| Load { share: it.share(movements), of: at(&movements[it.movements[0]]) });
+    let giving_way = approaches.iter().map(|it| {
+        let before = it.movements.iter().flat_map(|it| &movements[*it].rivals);
+        load(it.share(movements), &it.movements.iter().chain(before).copied().collect::<Vec<_>>())
+    });
     together.chain(giving_way).collect()
 }
 

@@ -8,16 +8,17 @@ use super::{Bottleneck, Load, Roads, weaving};
 /// A light at a place of a lane also belongs to the lanes beside it, if it is no further away [m].
 const BESIDE: f64 = 20.0;
 
-/// The loads of lanes: at the start of each part that is used and of each limit, and at each light. Vehicles that may
-/// use several lanes side by side fill them together; vehicles that need one lane fill it alone.
+/// The loads of lanes: at the start of each part that is used, of each limit and bend, and at each light. Vehicles that
+/// may use several lanes side by side fill them together; vehicles that need one lane fill it alone.
 pub(super) fn loads(roads: &Roads) -> Vec<Load> {
     let mut loads = Vec::new();
     for chain in roads.chains() {
         let here = roads.network.chain(chain);
         let starts = roads.assignment.on(chain).iter().map(|it| it.from);
         let limits = here.limits.iter().map(|it| it.start);
+        let bends = here.bends.iter().map(|it| it.start);
         let stops = roads.network.junctions.on(chain).stops.iter().map(|it| it.station);
-        let mut stations: Vec<f64> = starts.chain(limits).chain(stops).collect();
+        let mut stations: Vec<f64> = starts.chain(limits).chain(bends).chain(stops).collect();
         stations.sort_by(f64::total_cmp);
         stations.dedup();
         loads.extend(stations.into_iter().map(|it| roads.load(chain, it)));
@@ -35,22 +36,25 @@ impl Roads<'_> {
             self.assignment.flow(at.chain, at.x).map(|it| it * equivalents)
         };
         let [bound, all] = counted(Position::new(chain, station));
-        let (mut flows, mut capacities, mut lanes) = (all, capacity, 1);
-        for Position { chain: beside, x: at } in self.beside(chain, station, light.is_some()) {
-            let [_, flow] = counted(Position::new(beside, at));
+        let (mut flows, mut capacities, mut lanes) = (all, capacity, vec![Position::new(chain, station)]);
+        for beside in self.beside(chain, station, light.is_some()) {
+            let [_, flow] = counted(beside);
             // A lane that ends soon, or leads elsewhere, has no flow.
             if flow > 0.0 {
                 flows += flow;
-                capacities += self.capacity(beside, at).0;
-                lanes += 1;
+                capacities += self.capacity(beside.chain, beside.x).0;
+                lanes.push(beside);
             }
         }
         if light.is_none() {
-            capacities *= self.queues.left(lanes, self.network.chain(chain).limit(station));
+            capacities *= self.queues.left(lanes.len(), self.network.chain(chain).limit(station));
         }
         let lanelet = self.lanelet(chain, station);
         let of = light.map_or(Bottleneck::Lanes(lanelet), |light| Bottleneck::Light { light, lanelet });
-        Load { share: (bound / capacity).max(flows / capacities), of }
+        // Who needs this lane fills it alone.
+        let alone = bound / capacity > flows / capacities;
+        lanes.truncate(if alone { 1 } else { lanes.len() });
+        Load { share: (bound / capacity).max(flows / capacities), of, at: lanes }
     }
 
     /// The load of the lanes at the last place at which some vehicles have to leave one of them; none before a light,
@@ -81,7 +85,7 @@ impl Roads<'_> {
         capacities *= self.queues.left(number, self.network.chain(*chain).limit(before));
         let left = weaving::left(self.assignment, &lanes, flows, last_place - start);
         let of = Bottleneck::Lanes(self.lanelet(*chain, before));
-        (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of })
+        (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of, at: lanes })
     }
 
     /// Whether a lane soon parts from all lanes beside it, beyond a station [m]: vehicles that need it have to be on
@@ -100,7 +104,7 @@ impl Roads<'_> {
         let mut near = stops.filter(|it| (it.station - station).abs() < BESIDE);
         let light = near.find_map(|it| if let Sign::Light(light) = it.sign { Some(light) } else { None });
         let Some(light) = light else {
-            return (self.queues.stream(limit, 0.0), None);
+            return (self.queues.stream(limit, self.curvature(chain, [station; 2])), None);
         };
         let Light { id, program, .. } = &network.junctions.lights[light.at()];
         (self.queues.through(program, limit), Some(*id))

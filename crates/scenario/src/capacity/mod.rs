@@ -2,11 +2,13 @@
 //!
 //! The demand grows, by the same factor everywhere, until the first part of the map is full: a lane, a light, a
 //! junction, a place inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997).
+//! Where a scenario gives no demand, each origin grows until a part that its drivers pass is full.
 //! The load of each part comes from the demand along the usual routes; its capacity follows from the models of its
 //! drivers.
 
 mod conflict;
 mod delay;
+mod filling;
 mod lanes;
 mod lights;
 mod movement;
@@ -24,6 +26,7 @@ use laneweave_network::{ChainIndex, Network, Position};
 use laneweave_sim::{Assignment, Demand, InnerPlace, Place};
 use laneweave_study::units::SECONDS_PER_HOUR;
 
+pub(crate) use filling::Filling;
 pub(crate) use lights::with_traffic;
 pub(crate) use queues::Queues;
 
@@ -81,10 +84,12 @@ impl fmt::Display for Bottleneck {
 }
 
 /// A part of the map with its load, as a share of its capacity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Load {
     share: f64,
     of: Bottleneck,
+    /// Where vehicles drive that load it; empty for a town, which all load.
+    at: Vec<Position>,
 }
 
 /// The inputs: the roads of a map, the routes of the demand on them, and the queues of its drivers.
@@ -100,6 +105,16 @@ impl Roads<'_> {
     /// The lanelet's id at a station of a chain [m].
     fn lanelet(&self, chain: ChainIndex, station: f64) -> i64 {
         self.network.lanelet_at(Position::new(chain, station)).0.id
+    }
+
+    /// The largest curvature of a part of a chain [1/m], rounded so that there are few; 0 on a straight one.
+    fn curvature(&self, chain: ChainIndex, [from, to]: [f64; 2]) -> f64 {
+        /// Speeds at 1 m/s² are rounded to this [m/s].
+        const STEP: f64 = 0.5;
+        let bends = self.network.chain(chain).bends.iter().filter(|it| it.end > from && it.start <= to);
+        let tightest = bends.map(|it| it.curvature).reduce(f64::max);
+        let rounded = |it: f64| ((1.0 / it.sqrt() / STEP).round() * STEP).max(STEP);
+        tightest.map_or(0.0, |it| rounded(it).powi(-2))
     }
 
     fn chains(&self) -> impl Iterator<Item = ChainIndex> + use<> {
@@ -133,22 +148,34 @@ impl Capacity {
         inner_places: &[InnerPlace],
         queues: &Queues,
     ) -> Capacity {
-        let equivalents = lights::equivalents(network, assignment, queues);
-        let roads = Roads { network, assignment, queues, equivalents: &equivalents };
-        let movements = movement::movements(&roads);
-        let parts = lanes::loads(&roads)
-            .into_iter()
-            .chain(conflict::loads(&roads, &movements))
-            .chain(town::inner_place_loads(&roads, inner_places));
-        // Of parts with equal loads the first counts, however their numbers are rounded.
-        let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
-        let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
-        let Some(part) = fullest.filter(|it| it.share > 0.0) else {
-            return Capacity { veh_h: 0.0, bottleneck: None };
-        };
-        let Load { share, of } = town::load(&roads, &movements, 1.0 / part.share).unwrap_or(part);
-        Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
+        match fullest(network, assignment, inner_places, queues) {
+            Some(Load { share, of, .. }) => {
+                Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
+            }
+            None => Capacity { veh_h: 0.0, bottleneck: None },
+        }
     }
+}
+
+/// The part of the map that is full first when the flows of `assignment` grow, if anybody drives.
+fn fullest(
+    network: &Network,
+    assignment: &Assignment,
+    inner_places: &[InnerPlace],
+    queues: &Queues,
+) -> Option<Load> {
+    let equivalents = lights::equivalents(network, assignment, queues);
+    let roads = Roads { network, assignment, queues, equivalents: &equivalents };
+    let movements = movement::movements(&roads);
+    let parts = lanes::loads(&roads)
+        .into_iter()
+        .chain(conflict::loads(&roads, &movements))
+        .chain(town::inner_place_loads(&roads, inner_places));
+    // Of parts with equal loads the first counts, however their numbers are rounded.
+    let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
+    let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
+    let part = fullest.filter(|it| it.share > 0.0)?;
+    Some(town::load(&roads, &movements, 1.0 / part.share).unwrap_or(part))
 }
 
 /// The places inside the map from which trips of `demand` start.

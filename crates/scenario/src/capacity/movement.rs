@@ -138,15 +138,10 @@ fn take_time(roads: &Roads, movement: &mut Movement) {
     movement.follow_up = (1.0 / mixture.starts()).max(headway) + NOTICES_AFTER;
 }
 
-/// The limit [m/s] at the begin of a movement, and its largest curvature [1/m], rounded so that there are few.
+/// The limit [m/s] at the begin of a movement, and its largest curvature [1/m].
 fn limits(roads: &Roads, movement: &Movement) -> (f64, f64) {
-    /// Speeds at 1 m/s² are rounded to this [m/s].
-    const STEP: f64 = 0.5;
-    let chain = roads.network.chain(movement.chain);
-    let bends = chain.bends.iter().filter(|it| it.end > movement.start && it.start < movement.end);
-    let tightest = bends.map(|it| it.curvature).reduce(f64::max);
-    let rounded = |it: f64| ((1.0 / it.sqrt() / STEP).round() * STEP).max(STEP);
-    (chain.limit(movement.start), tightest.map_or(0.0, |it| rounded(it).powi(-2)))
+    let Movement { chain, start, end, .. } = *movement;
+    (roads.network.chain(chain).limit(start), roads.curvature(chain, [start, end]))
 }
 
 /// Distance before its first zone at which `movement` starts from rest: at the zone, or at a line before it [m].

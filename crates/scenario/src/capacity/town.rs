@@ -1,6 +1,6 @@
 //! The loads of a town core, and of places inside the map.
 
-use laneweave_network::{ChainIndex, Light, Sign};
+use laneweave_network::{ChainIndex, Light, Position, Sign};
 use laneweave_sim::{InnerPlace, PerimeterControl};
 
 use super::conflict::{Approach, approaches};
@@ -24,7 +24,7 @@ pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<L
         let middle = 0.5 * (low + high);
         if is_full(middle) { high = middle } else { low = middle }
     }
-    Some(Load { share: 1.0 / high, of: Bottleneck::Town })
+    Some(Load { share: 1.0 / high, of: Bottleneck::Town, at: Vec::new() })
 }
 
 /// The vehicles in a town, and their delays.
@@ -99,7 +99,9 @@ pub(super) fn inner_place_loads(roads: &Roads, inner_places: &[InnerPlace]) -> V
         let limit = roads.network.chain(inner.chain).limit(inner.station);
         let flow = roads.queues.mixture(limit, 0.0).starts();
         let starts = roads.assignment.on(inner.chain).iter().filter(|it| it.from == inner.station);
-        Load { share: starts.map(|it| it.flow).sum::<f64>() / flow, of: Bottleneck::TripEnd(inner.id) }
+        let share = starts.map(|it| it.flow).sum::<f64>() / flow;
+        let at = vec![Position::new(inner.chain, inner.station)];
+        Load { share, of: Bottleneck::TripEnd(inner.id), at }
     };
     inner_places.iter().map(load).collect()
 }

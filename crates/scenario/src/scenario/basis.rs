@@ -1,10 +1,9 @@
 //! The basis of the demand of a run, and a comparison with the estimated capacity of its map.
 
 use super::{Demand, Prepared};
-use crate::capacity::Capacity;
 
 /// Default demand as a share of the estimated capacity. Ours.
-const USUAL_SHARE: f64 = 0.7;
+pub(super) const USUAL_SHARE: f64 = 0.7;
 
 /// The basis of the demand of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,12 +21,6 @@ impl Basis {
     pub(super) fn is_open(demand: &Demand) -> bool {
         demand.vehicles_per_hour.is_none() && demand.entrances.is_empty() && demand.od.is_empty()
     }
-}
-
-/// The default demand [veh/h]; `None` without an estimate. It is a whole number, so that it is the same on every
-/// machine.
-pub(super) fn usual(capacity: &Capacity) -> Option<f64> {
-    capacity.bottleneck.map(|_| (USUAL_SHARE * capacity.veh_h).round().max(1.0))
 }
 
 impl Prepared {

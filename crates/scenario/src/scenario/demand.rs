@@ -17,8 +17,16 @@ const USUAL_STARTS: f64 = 200.0;
 /// Maximum flow of a lane [veh/h]; a quarter of it is more than was ever observed.
 const LARGEST_DEMAND: f64 = 10_000.0;
 
-/// The demand at each of `places`, and the weights of the destinations. Where the scenario gives none, there is a
-/// `total` [veh/h], or else the default one.
+/// The demand where a scenario gives none.
+pub(super) enum Amount {
+    /// Over all origins, by their lanes for cars [veh/h].
+    Total(f64),
+    /// Of each origin [veh/h].
+    Each(Vec<f64>),
+}
+
+/// The demand at each of `places`, and the weights of the destinations. Where the scenario gives none, it is `amount`,
+/// or else the default one.
 ///
 /// # Errors
 /// If an entrance or exit does not exist, or a number is invalid.
@@ -28,15 +36,22 @@ pub(super) fn demand(
     network: &Network,
     places: Places,
     population: Vec<Share>,
-    total: Option<f64>,
+    amount: Option<&Amount>,
 ) -> Result<Demand, Fault> {
     let wanted = &scenario.demand;
     let lanes: usize = places.origins.iter().map(|it| it.chains().len()).sum();
     // A table of origins and destinations is the whole demand, unless a total is given for the other origins.
     let usual = || if wanted.od.is_empty() { usual_demand(network, &places.origins) } else { 0.0 };
-    let total = wanted.vehicles_per_hour.or(total).unwrap_or_else(usual);
+    let total = wanted.vehicles_per_hour.unwrap_or_else(|| match amount {
+        Some(Amount::Total(total)) => *total,
+        Some(Amount::Each(rates)) => rates.iter().sum(),
+        None => usual(),
+    });
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
     let mut demand = Demand::over(network, places, total, wanted.fleet(), population);
+    if let Some(Amount::Each(rates)) = amount {
+        demand.origins.iter_mut().zip(rates).for_each(|(it, rate)| it.rate = Rate::constant(*rate));
+    }
     let weights = weights(scenario, origin, &demand)?;
     demand.origins.iter_mut().for_each(|it| it.weights.clone_from(&weights));
     set_turns(scenario, origin, network, &mut demand)?;

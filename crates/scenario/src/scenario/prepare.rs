@@ -10,7 +10,7 @@ use laneweave_network::{LaneletIndex, Network};
 use laneweave_sim::{Place, Places, Setup, World};
 
 use super::basis::Basis;
-use super::demand::{check_ways, demand};
+use super::demand::{Amount, check_ways, demand};
 use super::made_signals::MadeLights;
 use super::map::read_map;
 use super::mixture::mixture;
@@ -168,8 +168,8 @@ fn prepare_with(
     let made = MadeLights::of(scenario, &plans);
     let network = Arc::new(network.with_signals(&plans));
     check_places(scenario, &places)?;
-    let build = |network: &Arc<Network>, total: Option<f64>| {
-        let demand = demand(scenario, origin, network, places.clone(), shares.clone(), total)?;
+    let build = |network: &Arc<Network>, amount: Option<&Amount>| {
+        let demand = demand(scenario, origin, network, places.clone(), shares.clone(), amount)?;
         let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
         World::new(Arc::clone(network), driver_parameters.clone(), demand, setup)
             .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))

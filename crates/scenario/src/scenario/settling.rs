@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use laneweave_network::Network;
 use laneweave_sim::{Place, World};
-use laneweave_study::units::SECONDS_PER_HOUR;
 
 use super::Scenario;
-use super::basis::{Basis, usual};
+use super::basis::{Basis, USUAL_SHARE};
+use super::demand::Amount;
 use super::made_signals::MadeLights;
-use crate::capacity::{Capacity, Estimate, Queues, inner_places};
+use crate::capacity::{Capacity, Estimate, Filling, Queues, inner_places};
 use crate::fault::Fault;
 
 /// How the demand of a scenario, and the made programs of lights for it, are settled.
@@ -23,33 +23,45 @@ pub(super) struct Settling<'a> {
 
 impl Settling<'_> {
     /// The world that `build` makes on the network with the programs for its demand, and the basis of that demand. If
-    /// the scenario leaves it open, it is a share of the capacity, and none beside a recording.
+    /// the scenario leaves it open, it is a share of what each origin bears, and none beside a recording.
     pub(super) fn settle(
         &self,
         network: &Arc<Network>,
-        build: impl Fn(&Arc<Network>, Option<f64>) -> Result<World, Fault>,
+        build: impl Fn(&Arc<Network>, Option<&Amount>) -> Result<World, Fault>,
     ) -> Result<(World, Basis), Fault> {
         let is_open = Basis::is_open(&self.scenario.demand);
         let is_estimated = is_open && !self.scenario.replay.is_asked();
         // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
-        let world = build(network, is_open.then_some(if is_estimated { 1.0 } else { 0.0 }))?;
+        let smallest = is_open.then_some(Amount::Total(if is_estimated { 1.0 } else { 0.0 }));
+        let world = build(network, smallest.as_ref())?;
         if !is_estimated && !self.made.are_on(network) {
             return Ok((world, Basis::Given));
         }
-        let assignment = world.assignment(self.measured);
-        let (inner_places, origins) = (inner_places(world.demand()), origins(&world, self.measured));
+        let rates: Vec<f64> = origins(&world, self.measured).iter().map(|it| it.1).collect();
+        let usual = if is_estimated { self.usual(&world, network, &rates) } else { None };
+        let (assignment, is_known) = match &usual {
+            Some(rates) => (world.assignment_of(rates), true),
+            None => (world.assignment(self.measured), !is_estimated && rates.iter().any(|it| *it > 0.0)),
+        };
         drop(world);
-        let programmed = |total: Option<f64>| self.made.programmed(network, &assignment, self.queues, total);
-        if !is_estimated {
-            let total: f64 = origins.iter().map(|it| it.1).sum();
-            let network = programmed((total > 0.0).then_some(assignment.total));
-            return Ok((build(&network, is_open.then_some(0.0))?, Basis::Given));
-        }
-        let capacity = Capacity::of(&programmed(None), &assignment, &inner_places, self.queues);
-        let total = usual(&capacity);
-        let network = programmed(total.map(|it| it / SECONDS_PER_HOUR));
-        let basis = if total.is_some() { Basis::Estimated } else { Basis::Usual };
-        Ok((build(&network, total)?, basis))
+        let total = is_known.then_some(assignment.total);
+        let network = self.made.programmed(network, &assignment, self.queues, total);
+        let basis = match (is_estimated, &usual) {
+            (false, _) => Basis::Given,
+            (true, Some(_)) => Basis::Estimated,
+            (true, None) => Basis::Usual,
+        };
+        let amount = if is_estimated { usual.map(Amount::Each) } else { smallest };
+        Ok((build(&network, amount.as_ref())?, basis))
+    }
+
+    /// The default demand of each origin of `world` on `network` [veh/h], from demands in proportion to `rates` on;
+    /// `None` without an estimate. They are whole numbers, so that they are the same on every machine.
+    fn usual(&self, world: &World, network: &Arc<Network>, rates: &[f64]) -> Option<Vec<f64>> {
+        let network = &self.made.programmed(network, &world.assignment(self.measured), self.queues, None);
+        let inner_places = &inner_places(world.demand());
+        let filled = Filling { world, network, inner_places, queues: self.queues }.fill(rates)?;
+        Some(filled.into_iter().map(|it| (USUAL_SHARE * it).round().max(1.0)).collect())
     }
 }
 

@@ -48,12 +48,24 @@ pub struct Part {
 }
 
 impl Assignment {
-    /// The mean assignment of `demand` between two times [s]. Parallel lanes that lead to a destination share its
-    /// drivers evenly. If no vehicle arrives in that time, every lane of the origins gets the same flow.
+    /// The mean assignment of `demand` between two times [s]. If no vehicle arrives in that time, every lane of the
+    /// origins gets the same flow.
     pub fn new(network: &Network, navigator: &Navigator, demand: &Demand, during: [f64; 2]) -> Assignment {
         let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
         let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
         let rate = |it: &Origin| if comes_nobody { it.place.lanes(network) as f64 } else { mean(it) };
+        let rates: Vec<f64> = demand.origins.iter().map(rate).collect();
+        Assignment::of_rates(network, navigator, demand, &rates)
+    }
+
+    /// The assignment of `demand` if these `rates` come to its origins [veh/s]. Parallel lanes that lead to a
+    /// destination share its drivers evenly.
+    pub(crate) fn of_rates(
+        network: &Network,
+        navigator: &Navigator,
+        demand: &Demand,
+        rates: &[f64],
+    ) -> Assignment {
         let chains = network.chains.len();
         let mut assignment = Assignment {
             parts: vec![Vec::new(); chains],
@@ -61,11 +73,14 @@ impl Assignment {
             changes_from: vec![Vec::new(); chains],
             total: 0.0,
         };
-        let shares: Vec<Vec<f64>> = demand.origins.iter().map(|it| shares(network, navigator, it)).collect();
+        let comes = demand.origins.iter().zip(rates).filter(|it| *it.1 > 0.0);
+        let comes: Vec<(&Place, f64, Vec<f64>)> =
+            comes.map(|(it, rate)| (&it.place, *rate, shares(network, navigator, it))).collect();
+        let mut coming = vec![0.0; chains];
         for destination in 0..demand.destinations.len() {
-            let starts =
-                demand.origins.iter().zip(&shares).map(|(it, of)| (&it.place, rate(it) * of[destination]));
-            let mut spread = Spread::new(network, navigator, destination as u16, &mut assignment);
+            let starts = comes.iter().map(|(place, rate, shares)| (*place, rate * shares[destination]));
+            let mut spread =
+                Spread::new(network, navigator, destination as u16, &mut assignment, &mut coming);
             for (place, flow) in starts.filter(|it| it.1 > 0.0) {
                 spread.assignment.total += flow;
                 spread.begin(place, flow);
@@ -122,7 +137,7 @@ struct Spread<'a> {
     destination: u16,
     assignment: &'a mut Assignment,
     /// Flow that comes to the start of each chain [veh/s].
-    coming: Vec<f64>,
+    coming: &'a mut [f64],
     /// Chains that have a flow at their start, by the remaining distance to the destination [mm].
     open: BinaryHeap<(u64, ChainIndex)>,
 }
@@ -133,8 +148,8 @@ impl<'a> Spread<'a> {
         navigator: &'a Navigator,
         destination: u16,
         assignment: &'a mut Assignment,
+        coming: &'a mut [f64],
     ) -> Spread<'a> {
-        let coming = vec![0.0; network.chains.len()];
         Spread { network, navigator, destination, assignment, coming, open: BinaryHeap::new() }
     }
 
