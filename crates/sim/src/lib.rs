@@ -24,7 +24,7 @@ pub use ask::account::{Account, Act, SideAccount, explain};
 pub use ask::queues::{EntryQueue, Held, entry_queue_lengths, entry_queues};
 pub use ask::standing::{JunctionHindrance, StandsFor, stands_for};
 pub use demand::arrivals::LineCount;
-pub use demand::assignment::{Assignment, Change, Part};
+pub use demand::assignment::{Assignment, Change, Part, Thinning};
 pub use demand::error::WorldError;
 pub use demand::headways::{HeadwayError, Headways};
 pub use demand::line::{Departures, Line, LineStop};

@@ -6,7 +6,7 @@ use laneweave::models::Style;
 use laneweave::network::Network;
 use laneweave::style::Population;
 use laneweave::{Bottleneck, Capacity};
-use laneweave_sim::{Assignment, Demand, Navigator, Origin, Rate, Setup, Share, World};
+use laneweave_sim::{Demand, Navigator, Origin, Rate, Setup, Share, World};
 use laneweave_test_data::data;
 
 const TRUCKS: f64 = 0.1;
@@ -38,8 +38,7 @@ fn capacity(network: &Network, skew: impl Fn(&mut Demand)) -> Capacity {
     let mut demand = Demand::even(network, 1000.0, TRUCKS, shares);
     skew(&mut demand);
     let navigator = Navigator::towards(network, &demand.destinations);
-    let assignment = Assignment::new(network, &navigator, &demand, [0.0, 1.0]);
-    Capacity::new(network, &assignment, &demand, &drivers)
+    Capacity::new(network, &navigator, (&demand, [0.0, 1.0]), &drivers)
 }
 
 /// Only the origins with these indices have demand, and only their destinations.
@@ -54,7 +53,7 @@ fn only(demand: &mut Demand, [origins, destinations]: [&[usize]; 2]) {
 
 #[test]
 fn lanes_bear_as_much_as_there_are_of_them_where_fewest_are_left() {
-    let plain = |lanes| capacity(&road(lanes, Motorway::default()), |_| ()).veh_h;
+    let plain = |lanes| capacity(&road(lanes, Motorway::default()), |_| ()).queues_from_veh_h;
     let lane = plain(1);
     assert!((1800.0..2300.0).contains(&lane), "{lane} veh/h");
     // Lane changes take a part of it.
@@ -62,7 +61,7 @@ fn lanes_bear_as_much_as_there_are_of_them_where_fewest_are_left() {
     assert!((0.85..=1.0).contains(&(two / (2.0 * lane))), "{two} of {lane} veh/h a lane");
     assert!((0.85..1.0).contains(&(four / (4.0 * lane))), "{four} of {lane} veh/h a lane");
     let drop = capacity(&road(3, Motorway { lane_drop_at: Some(1500.0), ..Motorway::default() }), |_| ());
-    assert!((drop.veh_h / two - 1.0).abs() < 1e-9, "{drop:?}");
+    assert!((drop.queues_from_veh_h / two - 1.0).abs() < 1e-9, "{drop:?}");
 }
 
 #[test]
@@ -77,17 +76,21 @@ fn the_more_leave_over_a_ramp_the_sooner_it_is_full() {
         capacity(&network, to_the_ramp)
     };
     let [some, half, all] = [0.1, 0.5, 1.0].map(leaving);
-    assert!((some.veh_h - capacity(&road(3, Motorway::default()), |_| ()).veh_h).abs() < 1e-6, "{some:?}");
-    assert!((half.veh_h / all.veh_h - 2.0).abs() < 1e-9, "{half:?} {all:?}");
+    assert!(
+        (some.queues_from_veh_h - capacity(&road(3, Motorway::default()), |_| ()).queues_from_veh_h).abs()
+            < 1e-6,
+        "{some:?}"
+    );
+    assert!((half.queues_from_veh_h / all.queues_from_veh_h - 2.0).abs() < 1e-9, "{half:?} {all:?}");
     // A single lane behind trucks carries as much on the road as on the ramp.
     let single = capacity(&road(1, Motorway::default()), |_| ());
-    assert!((all.veh_h / single.veh_h - 1.0).abs() < 0.05, "{all:?} {single:?}");
+    assert!((all.queues_from_veh_h / single.queues_from_veh_h - 1.0).abs() < 0.05, "{all:?} {single:?}");
 }
 
 #[test]
 fn a_merge_bears_less_than_the_road_beyond_it_the_more_come_over_the_ramp() {
     let network = road(3, Motorway { on_ramp_at: vec![1000.0], ..Motorway::default() });
-    let plain = capacity(&road(3, Motorway::default()), |_| ()).veh_h;
+    let plain = capacity(&road(3, Motorway::default()), |_| ()).queues_from_veh_h;
     let from_ramp = |share: f64| {
         capacity(&network, |it| {
             let lanes = |origin: &Origin| origin.place.chains().len();
@@ -96,7 +99,7 @@ fn a_merge_bears_less_than_the_road_beyond_it_the_more_come_over_the_ramp() {
                 origin.rate = Rate::constant(1000.0 * of_all);
             }
         })
-        .veh_h
+        .queues_from_veh_h
     };
     let [none, few, some] = [0.0, 0.1, 0.25].map(from_ramp);
     assert!((none / plain - 1.0).abs() < 1e-9, "{none} of {plain}");
@@ -112,22 +115,22 @@ fn a_light_bears_what_of_a_queue_drives_off_at_green() {
     let green: f64 = network.junctions.lights.iter().map(|it| it.program.green_share()).sum::<f64>()
         / network.junctions.lights.len() as f64;
     let lanes: usize = network.entrances.iter().map(|it| it.chains.len()).sum();
-    let at_green = even.veh_h / (lanes as f64 * green);
+    let at_green = even.queues_from_veh_h / (lanes as f64 * green);
     assert!((800.0..1800.0).contains(&at_green), "{at_green} veh/h of green and lane");
     // If all come from one arm, they have only its green.
     let one = capacity(&network, |it| only(it, [&[0], &[0, 1, 2, 3]]));
-    assert!(one.veh_h < 0.5 * even.veh_h, "{one:?} {even:?}");
+    assert!(one.queues_from_veh_h < 0.5 * even.queues_from_veh_h, "{one:?} {even:?}");
 }
 
 #[test]
 fn who_crosses_takes_the_time_of_others_and_who_does_not_takes_none() {
     let network = cross(Control::RightBeforeLeft);
     let from = |origins: &[usize]| capacity(&network, |it| only(it, [origins, &[0, 1, 2, 3]]));
-    let alone: Vec<f64> = (0..4).map(|it| from(&[it]).veh_h).collect();
+    let alone: Vec<f64> = (0..4).map(|it| from(&[it]).queues_from_veh_h).collect();
     let all = from(&[0, 1, 2, 3]);
     assert!(matches!(all.bottleneck, Some(Bottleneck::Junction(_))), "{all:?}");
     // Four arms have more capacity than one, but far less than four times as much.
-    assert!(all.veh_h > alone[0] && all.veh_h < 2.0 * alone[0], "{all:?} {alone:?}");
+    assert!(all.queues_from_veh_h > alone[0] && all.queues_from_veh_h < 2.0 * alone[0], "{all:?} {alone:?}");
     assert!(alone.iter().all(|it| (it / alone[0] - 1.0).abs() < 0.02), "{alone:?}");
 }
 
@@ -136,7 +139,7 @@ fn who_crosses_takes_the_time_of_others_and_who_does_not_takes_none() {
 fn driven(network: &Network, load: f64) -> (f64, usize) {
     const STEP_S: f64 = 0.1;
     const DURATION_S: f64 = 900.0;
-    let demanded = load * capacity(network, |_| ()).veh_h;
+    let demanded = load * capacity(network, |_| ()).queues_from_veh_h;
     let (_, driver_parameters, shares) = usual();
     let demand = Demand::even(network, demanded, TRUCKS, shares);
     let setup = Setup { step: STEP_S, seed: 5, threads: 1 };
@@ -158,11 +161,13 @@ fn below_capacity_hardly_anybody_waits_and_above_it_nine_tenths_of_it_still_ente
         ("lights", cross(Control::Signals)),
     ];
     for (what, network) in networks {
-        let estimate = capacity(&network, |_| ()).veh_h;
+        let Capacity { veh_h, queues_from_veh_h: estimate, .. } = capacity(&network, |_| ());
         let (below, waiting) = driven(&network, 0.75);
         assert!(waiting < 8, "{what}: {waiting} wait, {below} of {estimate} veh/h entered");
         let (above, _) = driven(&network, 1.4);
         assert!(above > 0.9 * estimate, "{what}: {above} of {estimate} veh/h entered");
+        let (most, _) = driven(&network, 2.0);
+        assert!(most.max(above) > 0.8 * veh_h, "{what}: {above}, {most} of {veh_h} veh/h entered");
     }
 }
 

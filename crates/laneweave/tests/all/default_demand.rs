@@ -1,5 +1,6 @@
 //! The default demand: each entrance gets a share of what it bears.
 
+use laneweave::Capacity;
 use laneweave::generate::random;
 use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare_on};
 
@@ -16,15 +17,29 @@ fn the_default_demand_fills_no_part_and_lets_other_entrances_grow_on() {
     let mut grown = 0;
     for seed in 501..513 {
         let usual = prepared(seed, None);
+        let Capacity { veh_h, queues_from_veh_h, .. } = *usual.capacity;
         let total = usual.demand_veh_h;
-        // A demand of one vehicle an hour at least comes to each entrance.
-        let spare = usual.origins.len() as f64;
-        assert!(total <= 0.71 * usual.capacity.veh_h + spare, "{seed}: {total}, {}", *usual.capacity);
+        // At each entrance it is rounded to a whole number.
+        let rounded = usual.origins.len() as f64;
         assert!(usual.origins.iter().all(|it| it.1.fract() == 0.0 && it.1 >= 1.0), "{seed}");
+        assert!(total <= 0.9 * queues_from_veh_h + rounded, "{seed}: {total} of {queues_from_veh_h}");
+        assert!(total <= 0.65 * veh_h + rounded, "{seed}: {total} of {veh_h}");
+        assert!(total >= (0.9 * queues_from_veh_h).min(0.65 * veh_h) - rounded, "{seed}: {total} of {veh_h}");
         // The same demand for each lane fills the first part sooner.
-        let even = prepared(seed, Some(1000.0)).capacity.veh_h;
-        assert!(usual.capacity.veh_h > 0.9 * even, "{seed}: {} of {even}", *usual.capacity);
-        grown += usize::from(usual.capacity.veh_h > 1.1 * even);
+        let even = prepared(seed, Some(1000.0)).capacity.queues_from_veh_h;
+        assert!(queues_from_veh_h > 0.9 * even, "{seed}: {queues_from_veh_h} of {even}");
+        grown += usize::from(queues_from_veh_h > 1.1 * even);
     }
     assert!(grown >= 3, "{grown} of 12");
+}
+
+#[test]
+fn more_get_through_than_where_queues_begin_but_where_all_pass_one_part() {
+    let mut more = 0;
+    for seed in 501..513 {
+        let Capacity { veh_h, queues_from_veh_h, .. } = *prepared(seed, Some(1000.0)).capacity;
+        assert!(veh_h >= queues_from_veh_h, "{seed}: {veh_h} {queues_from_veh_h}");
+        more += usize::from(veh_h > 1.1 * queues_from_veh_h);
+    }
+    assert!(more >= 6, "{more} of 12");
 }

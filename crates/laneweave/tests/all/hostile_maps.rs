@@ -4,7 +4,7 @@ use std::path::Path;
 
 use laneweave::generate;
 use laneweave::maps::lanelet2;
-use laneweave_scenario::scenario::{Origin, Prepared, Scenario, prepare};
+use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 use laneweave_sim::World;
 use laneweave_test_data::data;
 
@@ -16,8 +16,8 @@ fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
     scenario.run.seed = seed;
     scenario.demand.vehicles_per_hour = Some(1.0);
     let prepared = |scenario: &Scenario| prepare(scenario, &Origin::default()).expect("the map is sound");
-    let Prepared { capacity, .. } = prepared(&scenario);
-    scenario.demand.vehicles_per_hour = Some(demand.min(share * capacity.veh_h));
+    let capacity = prepared(&scenario).capacity.queues_from_veh_h;
+    scenario.demand.vehicles_per_hour = Some(demand.min(share * capacity));
     prepared(&scenario).world
 }
 
@@ -112,7 +112,7 @@ fn a_window_of_16_m_passes_most_of_what_one_of_60_m_does_where_more_come_than_it
     }
 }
 
-/// The world of a random map at 70 % of its estimated capacity, with audit.
+/// The world of a random map at 70 % of the demand from which on queues grow, with audit.
 fn random_world(number: u64) -> World {
     let map = std::env::temp_dir().join(format!("laneweave-random-map-{}-{number}.osm", std::process::id()));
     std::fs::write(&map, lanelet2::write(&generate::random(number).drawing)).expect("there is room");

@@ -40,6 +40,8 @@ pub struct Summary {
     pub waiting_to_enter: u64,
     /// The estimated capacity of the map [veh/h].
     pub estimated_capacity_veh_h: f64,
+    /// The estimated demand from which on queues grow [veh/h].
+    pub queues_from_veh_h: f64,
     /// The bottleneck: what is full first when the demand grows.
     pub bottleneck: Option<String>,
     /// Completed crossings of all three kinds.
@@ -191,6 +193,7 @@ impl Summary {
             on_road: world.on_road() as u64,
             waiting_to_enter: world.waiting() as u64,
             estimated_capacity_veh_h: prepared.capacity.veh_h,
+            queues_from_veh_h: prepared.capacity.queues_from_veh_h,
             bottleneck: prepared.capacity.bottleneck.map(|it| it.to_string()),
             lane_changes,
             lane_changes_discretionary: counts.discretionary_changes,

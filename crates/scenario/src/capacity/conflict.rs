@@ -17,18 +17,31 @@ pub(super) fn loads(roads: &Roads, movements: &[Movement]) -> Vec<Load> {
     };
     let load = |share: f64, members: &[usize]| {
         let at: Vec<Position> = members.iter().copied().map(place).collect();
-        Load { share, of: Bottleneck::Junction(roads.lanelet(at[0].chain, at[0].x)), at }
+        Load::new(share, Bottleneck::Junction(roads.lanelet(at[0].chain, at[0].x)), at)
     };
     let together = (0..movements.len()).map(|first| {
         let members = clique(movements, first);
         let others = |it: usize| members.iter().copied().filter(move |other| *other != it);
-        let share = members.iter().map(|it| movements[*it].share_beside(others(*it))).sum();
-        load(share, &members)
+        let share_of = |it: &usize| movements[*it].share_beside(others(*it));
+        let whole = load(members.iter().map(share_of).sum(), &members);
+        // Who has priority over all others passes, however many the others are.
+        let (mut order, prior): (Vec<usize>, Vec<usize>) =
+            members.iter().partition(|it| movements[**it].before > 0.0);
+        if order.is_empty() {
+            return whole;
+        }
+        let (waits, [waiting, first]) =
+            (order.len(), [&order, &prior].map(|it| it.iter().map(share_of).sum::<f64>()));
+        order.extend(prior);
+        let at = order.into_iter().map(place).collect();
+        Load { at, passing: ((1.0 - first).max(0.0) / waiting).min(1.0), waits, ..whole }
     });
     let approaches = approaches(roads.network, movements);
     let giving_way = approaches.iter().map(|it| {
         let before = it.movements.iter().flat_map(|it| &movements[*it].rivals);
-        load(it.share(movements), &it.movements.iter().chain(before).copied().collect::<Vec<_>>())
+        let all: Vec<usize> = it.movements.iter().chain(before).copied().collect();
+        let passing = (1.0 / it.fullness(movements, 1.0)).clamp(0.0, 1.0);
+        Load { passing, waits: it.movements.len(), ..load(it.share(movements), &all) }
     });
     together.chain(giving_way).collect()
 }

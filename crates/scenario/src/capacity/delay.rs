@@ -3,7 +3,7 @@
 //! Both are the control delays of the Highway Capacity Manual (2010, chapters 18 to 20, from memory) for a quarter of
 //! an hour.
 
-use super::SECONDS_PER_HOUR;
+use laneweave_study::units::SECONDS_PER_HOUR;
 
 /// Duration of the flows [s].
 const PERIOD: f64 = 0.25 * SECONDS_PER_HOUR;

@@ -54,7 +54,7 @@ impl Roads<'_> {
         // Who needs this lane fills it alone.
         let alone = bound / capacity > flows / capacities;
         lanes.truncate(if alone { 1 } else { lanes.len() });
-        Load { share: (bound / capacity).max(flows / capacities), of, at: lanes }
+        Load::new((bound / capacity).max(flows / capacities), of, lanes)
     }
 
     /// The load of the lanes at the last place at which some vehicles have to leave one of them; none before a light,
@@ -85,7 +85,7 @@ impl Roads<'_> {
         capacities *= self.queues.left(number, self.network.chain(*chain).limit(before));
         let left = weaving::left(self.assignment, &lanes, flows, last_place - start);
         let of = Bottleneck::Lanes(self.lanelet(*chain, before));
-        (flows > 0.0).then_some(Load { share: fullest.max(flows / capacities) / left, of, at: lanes })
+        (flows > 0.0).then(|| Load::new(fullest.max(flows / capacities) / left, of, lanes))
     }
 
     /// Whether a lane soon parts from all lanes beside it, beyond a station [m]: vehicles that need it have to be on

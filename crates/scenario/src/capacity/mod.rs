@@ -2,13 +2,13 @@
 //!
 //! The demand grows, by the same factor everywhere, until the first part of the map is full: a lane, a light, a
 //! junction, a place inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997).
-//! Where a scenario gives no demand, each origin grows until a part that its drivers pass is full.
-//! The load of each part comes from the demand along the usual routes; its capacity follows from the models of its
-//! drivers.
+//! From then on queues grow there, but more may still get through elsewhere: the capacity of the map is the largest
+//! flow that does. The load of each part comes from the demand along the usual routes; its capacity follows from the
+//! models of its drivers.
 
 mod conflict;
 mod delay;
-mod filling;
+mod growth;
 mod lanes;
 mod lights;
 mod movement;
@@ -23,21 +23,22 @@ use std::sync::LazyLock;
 
 use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Network, Position};
-use laneweave_sim::{Assignment, Demand, InnerPlace, Place};
-use laneweave_study::units::SECONDS_PER_HOUR;
+use laneweave_sim::{Assignment, Demand, InnerPlace, Navigator, Place, Thinning};
 
-pub(crate) use filling::Filling;
+pub(crate) use growth::Growth;
 pub(crate) use lights::with_traffic;
 pub(crate) use queues::Queues;
 
 use lights::Equivalents;
 
-/// The estimated capacity of a map: the demand at which its first part is full.
+/// The estimated capacity of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
-    /// Of all origins together [veh/h].
+    /// The largest flow that gets through, which more demand no longer raises [veh/h].
     pub veh_h: f64,
-    /// What is full at this demand.
+    /// The demand from which on queues grow, because the first part is full [veh/h].
+    pub queues_from_veh_h: f64,
+    /// What is full first.
     pub bottleneck: Option<Bottleneck>,
 }
 
@@ -90,6 +91,16 @@ struct Load {
     of: Bottleneck,
     /// Where vehicles drive that load it; empty for a town, which all load.
     at: Vec<Position>,
+    /// The share of vehicles that would pass at these flows, and the number of the first places where they wait.
+    passing: f64,
+    waits: usize,
+}
+
+impl Load {
+    /// That of a part before which all wait who load it.
+    fn new(share: f64, of: Bottleneck, at: Vec<Position>) -> Load {
+        Load { share, of, passing: (1.0 / share).min(1.0), waits: at.len(), at }
+    }
 }
 
 /// The inputs: the roads of a map, the routes of the demand on them, and the queues of its drivers.
@@ -123,8 +134,8 @@ impl Roads<'_> {
 }
 
 impl Capacity {
-    /// The estimated capacity of `network` for the demand of `assignment`, from the origins of `demand`, with the
-    /// mixture of `drivers`, each with its weight.
+    /// The estimated capacity of `network` for a demand between two times [s], on the usual routes of `navigator`, with
+    /// the mixture of `drivers`, each with its weight.
     ///
     /// The capacity of a lane is the flow from a long queue. That of lanes side by side comes from a simulation of
     /// such a road. That of a light is the part of a standing queue that passes at green; turns across oncoming traffic
@@ -133,49 +144,27 @@ impl Capacity {
     /// queues that block each other.
     pub fn new(
         network: &Network,
-        assignment: &Assignment,
-        demand: &Demand,
+        navigator: &Navigator,
+        (demand, during): (&Demand, [f64; 2]),
         drivers: &[(Style, f64)],
     ) -> Capacity {
         let queues = Queues::new(drivers, demand.fleet, network.law);
-        Capacity::of(network, assignment, &inner_places(demand), &queues)
+        Capacity::of(network, navigator, (demand, during), &queues)
     }
 
-    /// The same of drivers with these `queues` who start at `inner_places`, too.
+    /// The same of drivers with these `queues`.
     pub(crate) fn of(
         network: &Network,
-        assignment: &Assignment,
-        inner_places: &[InnerPlace],
+        navigator: &Navigator,
+        (demand, during): (&Demand, [f64; 2]),
         queues: &Queues,
     ) -> Capacity {
-        match fullest(network, assignment, inner_places, queues) {
-            Some(Load { share, of, .. }) => {
-                Capacity { veh_h: assignment.total / share * SECONDS_PER_HOUR, bottleneck: Some(of) }
-            }
-            None => Capacity { veh_h: 0.0, bottleneck: None },
-        }
+        let assign = &|rates: &[f64], thinning: &Thinning| {
+            Assignment::of_rates(network, navigator, demand, rates, thinning)
+        };
+        let inner_places = &inner_places(demand);
+        Growth { network, assign, inner_places, queues }.capacity(&demand.mean_rates(network, during))
     }
-}
-
-/// The part of the map that is full first when the flows of `assignment` grow, if anybody drives.
-fn fullest(
-    network: &Network,
-    assignment: &Assignment,
-    inner_places: &[InnerPlace],
-    queues: &Queues,
-) -> Option<Load> {
-    let equivalents = lights::equivalents(network, assignment, queues);
-    let roads = Roads { network, assignment, queues, equivalents: &equivalents };
-    let movements = movement::movements(&roads);
-    let parts = lanes::loads(&roads)
-        .into_iter()
-        .chain(conflict::loads(&roads, &movements))
-        .chain(town::inner_place_loads(&roads, inner_places));
-    // Of parts with equal loads the first counts, however their numbers are rounded.
-    let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
-    let fullest = parts.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
-    let part = fullest.filter(|it| it.share > 0.0)?;
-    Some(town::load(&roads, &movements, 1.0 / part.share).unwrap_or(part))
 }
 
 /// The places inside the map from which trips of `demand` start.

@@ -11,9 +11,9 @@ use laneweave_sim::{Demand, Fleet, Places, Setup, Share, World};
 
 use laneweave_study::units::KMH_PER_MPS;
 
-use super::SECONDS_PER_HOUR;
 use crate::scenario;
 use crate::style::Population;
+use laneweave_study::units::SECONDS_PER_HOUR;
 
 /// Travel time along the road at the limit [s].
 const LENGTH_S: f64 = 40.0;

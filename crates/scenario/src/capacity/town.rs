@@ -24,7 +24,7 @@ pub(super) fn load(roads: &Roads, movements: &[Movement], most: f64) -> Option<L
         let middle = 0.5 * (low + high);
         if is_full(middle) { high = middle } else { low = middle }
     }
-    Some(Load { share: 1.0 / high, of: Bottleneck::Town, at: Vec::new() })
+    Some(Load::new(1.0 / high, Bottleneck::Town, Vec::new()))
 }
 
 /// The vehicles in a town, and their delays.
@@ -101,7 +101,7 @@ pub(super) fn inner_place_loads(roads: &Roads, inner_places: &[InnerPlace]) -> V
         let starts = roads.assignment.on(inner.chain).iter().filter(|it| it.from == inner.station);
         let share = starts.map(|it| it.flow).sum::<f64>() / flow;
         let at = vec![Position::new(inner.chain, inner.station)];
-        Load { share, of: Bottleneck::TripEnd(inner.id), at }
+        Load::new(share, Bottleneck::TripEnd(inner.id), at)
     };
     inner_places.iter().map(load).collect()
 }

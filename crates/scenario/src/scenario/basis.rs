@@ -1,9 +1,11 @@
 //! The basis of the demand of a run, and a comparison with the estimated capacity of its map.
 
 use super::{Demand, Prepared};
+use crate::capacity::Capacity;
 
-/// Default demand as a share of the estimated capacity. Ours.
-pub(super) const USUAL_SHARE: f64 = 0.7;
+/// Default demand as a share of the estimated capacity, and at most as a share of that from which on queues grow. Ours.
+pub(super) const USUAL_SHARE: f64 = 0.65;
+pub(super) const FULLEST: f64 = 0.9;
 
 /// The basis of the demand of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,19 +31,22 @@ impl Prepared {
         let demand = self.demand_veh_h;
         match self.basis {
             Basis::Given => None,
-            Basis::Estimated => {
-                let share = 100.0 * USUAL_SHARE;
-                Some(format!("demand: {demand:.0} veh/h, {share:.0} % of the {}", *self.capacity))
-            }
+            Basis::Estimated => Some(format!("demand: {demand:.0} veh/h, {}", self.share_of_capacity())),
             Basis::Usual => Some(format!("demand: {demand:.0} veh/h; this map has no estimated capacity")),
         }
     }
 
     /// A warning for the screen if the demand is above the estimated capacity, in a line.
     pub fn demand_warning(&self) -> Option<String> {
-        let (demand, capacity) = (&self.demand_veh_h, &*self.capacity);
-        (capacity.bottleneck.is_some() && *demand > capacity.veh_h).then(|| {
-            format!("demand: {demand:.0} veh/h is above the {capacity}: queues grow as long as this lasts")
+        let (demand, Capacity { queues_from_veh_h, bottleneck, .. }) = (self.demand_veh_h, &*self.capacity);
+        bottleneck.filter(|_| demand > *queues_from_veh_h).map(|it| {
+            format!("demand: {demand:.0} veh/h is above {queues_from_veh_h:.0} veh/h: as long as this lasts, queues grow at {it}")
         })
+    }
+
+    /// The demand as a share of the estimated capacity, in words.
+    pub(super) fn share_of_capacity(&self) -> String {
+        let share = 100.0 * self.demand_veh_h / self.capacity.veh_h;
+        format!("{share:.0} % of the {}", *self.capacity)
     }
 }

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use laneweave_network::Network;
-use laneweave_sim::{Place, World};
+use laneweave_sim::{Assignment, Navigator, Place, Thinning, World};
 
 use super::Scenario;
-use super::basis::{Basis, USUAL_SHARE};
+use super::basis::{Basis, FULLEST, USUAL_SHARE};
 use super::demand::Amount;
 use super::made_signals::MadeLights;
-use crate::capacity::{Capacity, Estimate, Filling, Queues, inner_places};
+use crate::capacity::{Capacity, Estimate, Growth, Queues, inner_places};
 use crate::fault::Fault;
 
 /// How the demand of a scenario, and the made programs of lights for it, are settled.
@@ -40,7 +40,7 @@ impl Settling<'_> {
         let rates: Vec<f64> = origins(&world, self.measured).iter().map(|it| it.1).collect();
         let usual = if is_estimated { self.usual(&world, network, &rates) } else { None };
         let (assignment, is_known) = match &usual {
-            Some(rates) => (world.assignment_of(rates), true),
+            Some(rates) => (world.assignment_of(rates, &Thinning::default()), true),
             None => (world.assignment(self.measured), !is_estimated && rates.iter().any(|it| *it > 0.0)),
         };
         drop(world);
@@ -59,9 +59,13 @@ impl Settling<'_> {
     /// `None` without an estimate. They are whole numbers, so that they are the same on every machine.
     fn usual(&self, world: &World, network: &Arc<Network>, rates: &[f64]) -> Option<Vec<f64>> {
         let network = &self.made.programmed(network, &world.assignment(self.measured), self.queues, None);
+        let assign = &|rates: &[f64], thinning: &Thinning| world.assignment_of(rates, thinning);
         let inner_places = &inner_places(world.demand());
-        let filled = Filling { world, network, inner_places, queues: self.queues }.fill(rates)?;
-        Some(filled.into_iter().map(|it| (USUAL_SHARE * it).round().max(1.0)).collect())
+        let growth = Growth { network, assign, inner_places, queues: self.queues };
+        let borne = growth.fill(rates)?;
+        let Capacity { veh_h, queues_from_veh_h, .. } = growth.capacity(&borne);
+        let usual = (USUAL_SHARE * veh_h).min(FULLEST * queues_from_veh_h) / borne.iter().sum::<f64>();
+        Some(borne.into_iter().map(|it| (usual * it).round().max(1.0)).collect())
     }
 }
 
@@ -73,11 +77,12 @@ pub(super) fn origins(world: &World, [from, until]: [f64; 2]) -> Vec<(Place, f64
 /// The estimated capacity of the map of `world` for its demand between two times [s]. Lights without a program get one
 /// for as much of it as they bear.
 pub(super) fn estimate(world: &World, measured: [f64; 2], queues: Queues, made: MadeLights) -> Estimate {
-    // The world may learn of other routes before somebody asks.
-    let assignment = world.assignment(measured);
-    let (network, inner_places) = (world.shared_network(), inner_places(world.demand()));
+    let (network, demand) = (world.shared_network(), world.demand().clone());
     Estimate::new(Box::new(move || {
+        // The world may know other routes by then.
+        let navigator = Navigator::towards(&network, &demand.destinations);
+        let assignment = Assignment::new(&network, &navigator, &demand, measured);
         let network = made.programmed(&network, &assignment, &queues, None);
-        Capacity::of(&network, &assignment, &inner_places, &queues)
+        Capacity::of(&network, &navigator, (&demand, measured), &queues)
     }))
 }

@@ -21,6 +21,47 @@ pub struct Assignment {
     changes_from: Vec<Vec<usize>>,
     /// Flow from all origins together [veh/s].
     pub total: f64,
+    /// Flow to all destinations together [veh/s]: less, if not all pass.
+    pub arriving: f64,
+}
+
+/// Places on chains that not all vehicles pass: for each chain the stations [m] with the shares that do.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Thinning(Vec<Vec<(f64, f64)>>);
+
+impl Thinning {
+    /// Of the vehicles that come to `station` [m] of `chain`, only this `share` passes, or less.
+    pub fn thin(&mut self, chain: ChainIndex, station: f64, share: f64) {
+        if self.0.len() <= chain.at() {
+            self.0.resize(chain.at() + 1, Vec::new());
+        }
+        let places = &mut self.0[chain.at()];
+        match places.iter_mut().find(|it| it.0 == station) {
+            Some(place) => place.1 = place.1.min(share),
+            None => places.push((station, share)),
+        }
+    }
+
+    /// The share of the vehicles that passes a part of `chain` [m].
+    fn passing(&self, chain: ChainIndex, [from, to]: [f64; 2]) -> f64 {
+        let places = self.0.get(chain.at()).into_iter().flatten();
+        places.filter(|(x, _)| (from..to).contains(x)).map(|it| it.1).fold(1.0, f64::min)
+    }
+
+    /// Every place of it, as it is in the middle between this and `other`.
+    pub fn between(&self, other: &Thinning) -> Thinning {
+        let mut middle = Thinning::default();
+        for (these, those) in [(self, other), (other, self)] {
+            for (chain, places) in (0..).map(ChainIndex).zip(&these.0) {
+                for (station, share) in places {
+                    let there = those.0.get(chain.at()).into_iter().flatten();
+                    let there = there.clone().find(|it| it.0 == *station).map_or(1.0, |it| it.1);
+                    middle.thin(chain, *station, 0.5 * (share + there));
+                }
+            }
+        }
+        middle
+    }
 }
 
 /// A flow that has to change from one lane to the lane beside it.
@@ -51,20 +92,18 @@ impl Assignment {
     /// The mean assignment of `demand` between two times [s]. If no vehicle arrives in that time, every lane of the
     /// origins gets the same flow.
     pub fn new(network: &Network, navigator: &Navigator, demand: &Demand, during: [f64; 2]) -> Assignment {
-        let mean = |it: &Origin| it.rate.mean(during[0], during[1]) / SECONDS_PER_HOUR;
-        let comes_nobody = demand.origins.iter().all(|it| mean(it) <= 0.0);
-        let rate = |it: &Origin| if comes_nobody { it.place.lanes(network) as f64 } else { mean(it) };
-        let rates: Vec<f64> = demand.origins.iter().map(rate).collect();
-        Assignment::of_rates(network, navigator, demand, &rates)
+        let rates = demand.mean_rates(network, during);
+        Assignment::of_rates(network, navigator, demand, &rates, &Thinning::default())
     }
 
-    /// The assignment of `demand` if these `rates` come to its origins [veh/s]. Parallel lanes that lead to a
-    /// destination share its drivers evenly.
-    pub(crate) fn of_rates(
+    /// The assignment of `demand` if these `rates` come to its origins [veh/h], and not all pass everywhere. Parallel
+    /// lanes that lead to a destination share its drivers evenly.
+    pub fn of_rates(
         network: &Network,
         navigator: &Navigator,
         demand: &Demand,
         rates: &[f64],
+        thinning: &Thinning,
     ) -> Assignment {
         let chains = network.chains.len();
         let mut assignment = Assignment {
@@ -72,15 +111,18 @@ impl Assignment {
             changes: Vec::new(),
             changes_from: vec![Vec::new(); chains],
             total: 0.0,
+            arriving: 0.0,
         };
         let comes = demand.origins.iter().zip(rates).filter(|it| *it.1 > 0.0);
-        let comes: Vec<(&Place, f64, Vec<f64>)> =
-            comes.map(|(it, rate)| (&it.place, *rate, shares(network, navigator, it))).collect();
+        let comes: Vec<(&Place, f64, Vec<f64>)> = comes
+            .map(|(it, rate)| (&it.place, rate / SECONDS_PER_HOUR, shares(network, navigator, it)))
+            .collect();
         let mut coming = vec![0.0; chains];
         for destination in 0..demand.destinations.len() {
             let starts = comes.iter().map(|(place, rate, shares)| (*place, rate * shares[destination]));
-            let mut spread =
-                Spread::new(network, navigator, destination as u16, &mut assignment, &mut coming);
+            let open = BinaryHeap::new();
+            let (destination, assignment, coming) = (destination as u16, &mut assignment, &mut coming[..]);
+            let mut spread = Spread { network, navigator, destination, assignment, thinning, coming, open };
             for (place, flow) in starts.filter(|it| it.1 > 0.0) {
                 spread.assignment.total += flow;
                 spread.begin(place, flow);
@@ -136,6 +178,7 @@ struct Spread<'a> {
     navigator: &'a Navigator,
     destination: u16,
     assignment: &'a mut Assignment,
+    thinning: &'a Thinning,
     /// Flow that comes to the start of each chain [veh/s].
     coming: &'a mut [f64],
     /// Chains that have a flow at their start, by the remaining distance to the destination [mm].
@@ -143,16 +186,6 @@ struct Spread<'a> {
 }
 
 impl<'a> Spread<'a> {
-    fn new(
-        network: &'a Network,
-        navigator: &'a Navigator,
-        destination: u16,
-        assignment: &'a mut Assignment,
-        coming: &'a mut [f64],
-    ) -> Spread<'a> {
-        Spread { network, navigator, destination, assignment, coming, open: BinaryHeap::new() }
-    }
-
     fn waypoint(&self, chain: ChainIndex) -> &'a Waypoint {
         self.navigator.waypoint(Some(self.destination), chain)
     }
@@ -224,18 +257,22 @@ impl<'a> Spread<'a> {
     }
 
     /// Moves `flow` from a station of a chain [m] to the start of the next chain, with the lane changes between.
-    fn go_on(&mut self, mut chain: ChainIndex, mut station: f64, flow: f64, is_bound: bool) {
+    fn go_on(&mut self, mut chain: ChainIndex, mut station: f64, mut flow: f64, is_bound: bool) {
         let to = Some(self.destination);
         loop {
             let here = self.network.chain(chain);
             let way = self.navigator.waypoint_from(self.network, to, chain, station).into_owned();
-            let Some(via) = way.goes_on() else { return };
+            let Some(via) = way.goes_on() else {
+                self.assignment.arriving += flow;
+                return;
+            };
             let stretch =
                 stretch_to(here, via, way.last_place).filter(|_| way.changes > self.waypoint(via).changes);
             match stretch {
                 Some(stretch) => {
                     let place = way.last_place.max(station);
                     self.note(chain, [station, place], flow, is_bound);
+                    flow *= self.thinning.passing(chain, [station, place]);
                     self.note_change(chain, stretch, [station.max(stretch.start).min(place), place], flow);
                     (chain, station) = (via, stretch.across(place).max(0.0));
                 }
@@ -243,7 +280,10 @@ impl<'a> Spread<'a> {
                     self.note(chain, [station, way.end], flow, is_bound);
                     // A chain may lead back to its own start.
                     let arrives = via == chain && (way.next.is_none() || way.end.is_finite());
-                    if !arrives {
+                    flow *= self.thinning.passing(chain, [station, way.end]);
+                    if arrives {
+                        self.assignment.arriving += flow;
+                    } else {
                         self.come(via, flow);
                     }
                     return;

@@ -179,6 +179,16 @@ impl Demand {
             && !until_s.is_nan()
     }
 
+    /// The mean rate of each origin between two times [s] [veh/h]. If no vehicle arrives in that time, every lane of
+    /// the origins gets the same flow.
+    pub fn mean_rates(&self, network: &Network, [from, until]: [f64; 2]) -> Vec<f64> {
+        let means: Vec<f64> = self.origins.iter().map(|it| it.rate.mean(from, until)).collect();
+        if means.iter().any(|it| *it > 0.0) {
+            return means;
+        }
+        self.origins.iter().map(|it| it.place.lanes(network) as f64).collect()
+    }
+
     /// The destinations that are no stops of lines.
     pub fn exits(&self) -> &[Place] {
         &self.destinations[..self.destinations.len() - self.stops]

@@ -6,11 +6,11 @@ use laneweave_models::Style;
 use laneweave_network::{ChainIndex, Classes, Network, Position};
 use xxhash_rust::xxh3::Xxh3;
 
+use crate::demand::Demand;
 use crate::demand::arrivals::{Arrivals, LineCount};
-use crate::demand::assignment::Assignment;
+use crate::demand::assignment::{Assignment, Thinning};
 use crate::demand::error::WorldError;
 use crate::demand::line::{Line, LineStop};
-use crate::demand::{Demand, SECONDS_PER_HOUR};
 use crate::driver::intention::{Intention, intention};
 use crate::driver::plan::Waiting;
 use crate::record::counters::Counters;
@@ -105,10 +105,10 @@ impl World {
         Assignment::new(self.roads.network(), self.roads.navigator(), self.arrivals.demand(), during)
     }
 
-    /// The assignment of its demand if these `rates` come to its origins [veh/h].
-    pub fn assignment_of(&self, rates: &[f64]) -> Assignment {
-        let rates: Vec<f64> = rates.iter().map(|it| it / SECONDS_PER_HOUR).collect();
-        Assignment::of_rates(self.roads.network(), self.roads.navigator(), self.arrivals.demand(), &rates)
+    /// The assignment of its demand if these `rates` come to its origins [veh/h], and not all pass everywhere.
+    pub fn assignment_of(&self, rates: &[f64], thinning: &Thinning) -> Assignment {
+        let (network, navigator) = (self.roads.network(), self.roads.navigator());
+        Assignment::of_rates(network, navigator, self.arrivals.demand(), rates, thinning)
     }
 
     /// Whether drivers of some class of the demand can reach one of its destinations from an origin, and would choose

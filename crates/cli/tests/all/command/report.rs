@@ -305,5 +305,5 @@ fn a_long_jam_has_a_small_report() {
     let page = folder.read("out/report.html");
     assert!(page.len() < 700_000, "{}", page.len());
     assert_downloads(&page);
-    assert!(page.contains("is drawn)") && page.contains("Demand above the estimated capacity"));
+    assert!(page.contains("is drawn)") && page.contains("Demand above what the map bears"));
 }

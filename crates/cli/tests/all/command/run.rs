@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::command::program::Folder;
 
 /// The fields that users can rely on.
-const FIELDS: &str = "entered completed on_road waiting_to_enter estimated_capacity_veh_h bottleneck lane_changes \
+const FIELDS: &str = "entered completed on_road waiting_to_enter estimated_capacity_veh_h queues_from_veh_h bottleneck lane_changes \
     lane_changes_discretionary lane_changes_route_driven lane_changes_per_veh_km veh_km collisions overlaps incidents emergency_brakings stuck missed_turns \
     lost rerouted considerations updates wall_s load_s updates_per_s mean_speed_mps mean_trip_duration_s trips_of_one_lanelet peak_rss_mb \
     state_hash route_changes lane_changes_keeping hard_brakings";
@@ -68,7 +68,7 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
     assert_eq!(of("incidents"), of("collisions") + of("overlaps"));
     assert_eq!((of("incidents"), &summary["first_incident"]), (0.0, &Value::Null));
-    assert_eq!(of("demand_veh_h"), 3131.0);
+    assert_eq!(of("demand_veh_h"), 3193.0);
     assert_eq!(of("duration_s"), 120.0);
     let mean_speed = of("veh_km") * 1000.0 / (of("updates") * 0.1);
     assert!((of("mean_speed_mps") / mean_speed - 1.0).abs() < 1e-12);

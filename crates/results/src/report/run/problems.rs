@@ -114,11 +114,11 @@ fn run_problems(run: &RunReport, summary: &Summary) -> Vec<(&'static str, String
     for (count, what, remedy) in counts(summary) {
         note(count > 0, what, counted(count), remedy);
     }
-    let demand_is_higher = summary.demand_veh_h > summary.estimated_capacity_veh_h;
-    let share = format!("{:.0} against {:.0} veh/h", summary.demand_veh_h, summary.estimated_capacity_veh_h);
+    let demand_is_higher = summary.demand_veh_h > summary.queues_from_veh_h;
+    let share = format!("{:.0} against {:.0} veh/h", summary.demand_veh_h, summary.queues_from_veh_h);
     note(
         demand_is_higher,
-        "Demand above the estimated capacity",
+        "Demand above what the map bears",
         share,
         "queues grow as long as this lasts: reduce the demand, or study the run as congestion",
     );

@@ -96,7 +96,7 @@ fn origin_note(prepared: &Prepared) -> &'static str {
 /// The default demand, and the estimated capacity.
 fn demand_note(prepared: &Prepared) -> String {
     match prepared.basis {
-        Basis::Estimated => format!("Default: 70 % of the {}:", *prepared.capacity),
+        Basis::Estimated => format!("Default: {}:", prepared.share_of_capacity()),
         _ => "On this map:".into(),
     }
 }

@@ -1,0 +1,156 @@
+//! What comes of a demand that grows: which part of the map is full first, what each origin bears, and how many
+//! vehicles get through.
+
+use laneweave_network::Network;
+use laneweave_sim::{Assignment, InnerPlace, Thinning};
+use laneweave_study::units::SECONDS_PER_HOUR;
+
+use super::lights::Equivalents;
+use super::movement::{Movement, movements};
+use super::{Bottleneck, Capacity, Load, Queues, Roads, conflict, lanes, lights, town};
+
+/// The map, the routes of the demand, and its drivers.
+pub(crate) struct Growth<'a> {
+    /// Its roads, with the programs of the lights.
+    pub(crate) network: &'a Network,
+    /// The assignment of these demands of the origins [veh/h], if not all pass everywhere.
+    pub(crate) assign: &'a dyn Fn(&[f64], &Thinning) -> Assignment,
+    pub(crate) inner_places: &'a [InnerPlace],
+    pub(crate) queues: &'a Queues,
+}
+
+impl Growth<'_> {
+    /// The estimated capacity for demands in proportion to `rates`.
+    pub(crate) fn capacity(&self, rates: &[f64]) -> Capacity {
+        /// The demand, as a multiple of that which fills the first part, at which the most get through: some parts
+        /// take in more then, and others are not yet blocked (ours).
+        const GROWTHS: [f64; 2] = [1.4, 2.0];
+        let Some(full) = self.fullest(rates) else {
+            return Capacity { veh_h: 0.0, queues_from_veh_h: 0.0, bottleneck: None };
+        };
+        let from = (self.assign)(rates, &Thinning::default()).total / full.share * SECONDS_PER_HOUR;
+        let most = match full.of {
+            Bottleneck::Town => from,
+            _ => GROWTHS.map(|it| self.arriving(rates, it / full.share)).into_iter().fold(0.0, f64::max),
+        };
+        Capacity { veh_h: most, queues_from_veh_h: from.min(most), bottleneck: Some(full.of) }
+    }
+
+    /// The flow to all destinations if `growth` times these `rates` come, and before each part that is overfull some
+    /// wait [veh/h]. Queues block nobody else.
+    fn arriving(&self, rates: &[f64], growth: f64) -> f64 {
+        /// Where streams wait for each other, the flows settle within these; before the last ones they take turns.
+        const ROUNDS: u32 = 8;
+        const SETTLING: u32 = 3;
+        let rates: Vec<f64> = rates.iter().map(|it| growth * it).collect();
+        let mut thinning = Thinning::default();
+        for round in 0..ROUNDS {
+            let mut next = Thinning::default();
+            self.with_loads(&(self.assign)(&rates, &thinning), |_, _, loads| {
+                for load in loads.filter(|it| it.passing < 1.0) {
+                    let waiting = &load.at[..load.waits];
+                    waiting.iter().for_each(|it| next.thin(it.chain, it.x, load.passing));
+                }
+            });
+            thinning = if round < SETTLING { next } else { thinning.between(&next) };
+        }
+        (self.assign)(&rates, &thinning).arriving * SECONDS_PER_HOUR
+    }
+
+    /// The part that is full first when the demands grow from these `rates` on, if anybody drives.
+    fn fullest(&self, rates: &[f64]) -> Option<Load> {
+        // Of parts with equal loads the first counts, however their numbers are rounded.
+        let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
+        let assignment = (self.assign)(rates, &Thinning::default());
+        self.with_loads(&assignment, |roads, movements, loads| {
+            let fullest = loads.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
+            let part = fullest.filter(|it| it.share > 0.0)?;
+            Some(town::load(roads, movements, 1.0 / part.share).unwrap_or(part))
+        })
+    }
+
+    /// What `of` finds of the loads of all parts but the town.
+    fn with_loads<T>(
+        &self,
+        assignment: &Assignment,
+        of: impl FnOnce(&Roads, &[Movement], &mut dyn Iterator<Item = Load>) -> T,
+    ) -> T {
+        let Growth { network, inner_places, queues, .. } = *self;
+        let equivalents: &Equivalents = &lights::equivalents(network, assignment, queues);
+        let roads = Roads { network, assignment, queues, equivalents };
+        let movements = movements(&roads);
+        let junctions = conflict::loads(&roads, &movements);
+        let inner_places = town::inner_place_loads(&roads, inner_places);
+        let mut loads = lanes::loads(&roads).into_iter().chain(junctions).chain(inner_places);
+        of(&roads, &movements, &mut loads)
+    }
+}
+
+/// What each origin bears. All demands grow together until a part of the map is full. Those whose drivers pass it stay
+/// as they are, and the others grow on: the max-min fair allocation, by progressive filling (Bertsekas and Gallager,
+/// 1992, from memory).
+impl Growth<'_> {
+    /// So often are the others let grow on: each time takes some assignments.
+    const ROUNDS: u32 = 6;
+    /// The largest growth of one round, and the growth below which it ends.
+    const MOST: f64 = 8.0;
+    const LEAST: f64 = 1.02;
+
+    /// The demand of each origin [veh/h], from demands in proportion to `rates` on; `None` if nothing is ever full.
+    pub(crate) fn fill(&self, rates: &[f64]) -> Option<Vec<f64>> {
+        let mut full = self.fullest(rates)?;
+        let mut rates: Vec<f64> = rates.iter().map(|it| it / full.share).collect();
+        let mut grows = vec![true; rates.len()];
+        for _ in 0..Growth::ROUNDS {
+            for (origin, grows) in grows.iter_mut().enumerate() {
+                *grows &= !self.loads(origin, &rates, &full);
+            }
+            if !grows.contains(&true) {
+                break;
+            }
+            let grown = |by: f64| -> Vec<f64> {
+                rates.iter().zip(&grows).map(|(it, grows)| if *grows { it * by } else { *it }).collect()
+            };
+            let Some((by, next)) = self.growth(grown) else { break };
+            (rates, full) = (grown(by), next);
+            if by < Growth::LEAST {
+                break;
+            }
+        }
+        Some(rates)
+    }
+
+    /// The largest growth at which no part is overfull, of demands that are `grown` by it, and what is full beyond it;
+    /// `None` if nothing is.
+    fn growth(&self, grown: impl Fn(f64) -> Vec<f64>) -> Option<(f64, Load)> {
+        const HALVINGS: u32 = 5;
+        let overfull = |by: f64| self.fullest(&grown(by)).filter(|it| it.share > 1.0);
+        let (mut low, mut high) = (1.0, 2.0);
+        let mut full = loop {
+            match overfull(high) {
+                Some(full) => break full,
+                None if high >= Growth::MOST => return None,
+                None => (low, high) = (high, 2.0 * high),
+            }
+        };
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            match overfull(middle) {
+                Some(it) => (high, full) = (middle, it),
+                None => low = middle,
+            }
+        }
+        Some((low, full))
+    }
+
+    /// Whether drivers from an origin pass the part that is `full`, or get nowhere.
+    fn loads(&self, origin: usize, rates: &[f64], full: &Load) -> bool {
+        if full.of == Bottleneck::Town {
+            return true;
+        }
+        let alone: Vec<f64> =
+            rates.iter().enumerate().map(|(it, rate)| if it == origin { *rate } else { 0.0 }).collect();
+        let assignment = (self.assign)(&alone, &Thinning::default());
+        assignment.total == 0.0 || full.at.iter().any(|it| assignment.flow(it.chain, it.x)[1] > 0.0)
+    }
+}
