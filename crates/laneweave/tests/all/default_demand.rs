@@ -22,9 +22,9 @@ fn the_default_demand_fills_no_part_and_lets_other_entrances_grow_on() {
         // At each entrance it is rounded to a whole number.
         let rounded = usual.origins.len() as f64;
         assert!(usual.origins.iter().all(|it| it.1.fract() == 0.0 && it.1 >= 1.0), "{seed}");
-        assert!(total <= 0.9 * queues_from_veh_h + rounded, "{seed}: {total} of {queues_from_veh_h}");
+        assert!(total <= 0.7 * queues_from_veh_h + rounded, "{seed}: {total} of {queues_from_veh_h}");
         assert!(total <= 0.65 * veh_h + rounded, "{seed}: {total} of {veh_h}");
-        assert!(total >= (0.9 * queues_from_veh_h).min(0.65 * veh_h) - rounded, "{seed}: {total} of {veh_h}");
+        assert!(total >= (0.7 * queues_from_veh_h).min(0.65 * veh_h) - rounded, "{seed}: {total} of {veh_h}");
         // The same demand for each lane fills the first part sooner.
         let even = prepared(seed, Some(1000.0)).capacity.queues_from_veh_h;
         assert!(queues_from_veh_h > 0.9 * even, "{seed}: {queues_from_veh_h} of {even}");
