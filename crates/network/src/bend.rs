@@ -1,7 +1,8 @@
 //! Bends: where the centre lines of lanes are so curved that drivers slow down.
 //!
 //! The points of real maps are some decimetres beside the true line. So a centre line is averaged over an arc before
-//! its curvature is measured, with the chains that continue it at both ends.
+//! its curvature is measured, with the chains that continue it at both ends. In corners this arc is too long: there
+//! the line itself is measured, over the length of a car and its way in half a second.
 
 use crate::chain::{Bend, Chain, ChainIndex};
 use crate::geometry::{Point, Polyline, turn};
@@ -11,6 +12,10 @@ const STEP: f64 = 1.0;
 /// The arc over which a line is averaged takes this time at the limit [s], within these bounds [m]; ours.
 const ARC_TIME: f64 = 0.8;
 const ARC: [f64; 2] = [10.0, 40.0];
+/// A corner turns by at least this angle [rad] within this distance [m], between chords of this length [m]; ours.
+const CORNER: f64 = 0.35;
+const WITHIN: usize = 10;
+const CHORD: usize = 4;
 /// Nobody slows for less curvature [1/m], nor for less lateral acceleration [m/s²] at the fastest that anyone drives,
 /// as a multiple of the limit; ours.
 const LEAST_CURVATURE: f64 = 1.0 / 1000.0;
@@ -73,8 +78,12 @@ fn bends_of(chains: &[Chain], chain: &Chain) -> Vec<Bend> {
     if turn_of(&line) < LEAST_PART {
         return Vec::new();
     }
-    let line = averaged(&line, before, chain.length, half_arc);
-    let curvatures: Vec<f64> = curvatures(&line, half_arc);
+    let around = (half_arc / STEP).ceil() as usize;
+    let line = sampled(&line, before, chain.length, 2 * around);
+    let long = curvatures(&averaged(&line, around), around);
+    let corners = line[2 * around - (WITHIN + CHORD) / 2..].windows(WITHIN + CHORD + 1).map(in_corner);
+    let tighter = |(long, corner): (f64, f64)| if corner.abs() > long.abs() { corner } else { long };
+    let curvatures: Vec<f64> = long.into_iter().zip(corners).map(tighter).collect();
     let mut bends = Vec::new();
     let mut from = 0;
     // Runs of samples that are curved in one direction.
@@ -158,20 +167,22 @@ fn turn_between(one: &Chain, next: &Chain) -> f64 {
     turn(one.centre.heading(one.length), next.centre.heading(0.0)).abs()
 }
 
-/// Points of a chain of this `length` every [`STEP`], and `half_arc` further at both ends, each the mean of an arc of
-/// `line`. The chain starts at `before` on it [m].
-fn averaged(line: &Polyline, before: f64, length: f64, half_arc: f64) -> Vec<Point> {
-    let around = (half_arc / STEP).ceil() as usize;
-    let count = (length / STEP).ceil() as usize + 1 + 4 * around;
-    let first = before - 2.0 * around as f64 * STEP;
-    let mut sums = Vec::with_capacity(count + 1);
+/// Points of `line` every [`STEP`] along a chain of this `length`, and this number `more` at both ends. The chain starts
+/// at `before` on it [m].
+fn sampled(line: &Polyline, before: f64, length: f64, more: usize) -> Vec<Point> {
+    let count = (length / STEP).ceil() as usize + 1 + 2 * more;
+    let first = before - more as f64 * STEP;
+    (0..count).map(|number| line.at(first + number as f64 * STEP)).collect()
+}
+
+/// The means of each of `points` with this number `around` it on either side.
+fn averaged(points: &[Point], around: usize) -> Vec<Point> {
+    let mut sums = Vec::with_capacity(points.len() + 1);
     sums.push((0.0, 0.0));
     // Sums of distances from the first point, so that they keep their precision.
-    let origin = line.at(first);
     let (mut x, mut y) = (0.0, 0.0);
-    for number in 0..count {
-        let point = line.at(first + number as f64 * STEP);
-        (x, y) = (x + (point.x - origin.x), y + (point.y - origin.y));
+    for point in points {
+        (x, y) = (x + (point.x - points[0].x), y + (point.y - points[0].y));
         sums.push((x, y));
     }
     let width = 2 * around + 1;
@@ -191,15 +202,19 @@ fn turn_of(line: &Polyline) -> f64 {
     line.points().windows(3).map(|it| angle([&it[0], &it[1]], [&it[1], &it[2]]).abs()).sum()
 }
 
-/// Curvatures between the chords of length `half_arc` before and after each point [1/m], to the left positive.
-fn curvatures(points: &[Point], half_arc: f64) -> Vec<f64> {
-    let around = (half_arc / STEP).ceil() as usize;
-    let curvature = |it: &[Point]| {
-        let [from, at, to] = [&it[0], &it[around], &it[2 * around]];
-        let way = 0.5 * (from.distance(at) + at.distance(to));
-        if way > 0.0 { angle([from, at], [at, to]) / way } else { 0.0 }
-    };
+/// Curvatures between the chords to the points this number `around` each [1/m], to the left positive. Along the way, and
+/// not along an averaged line: this cuts corners.
+fn curvatures(points: &[Point], around: usize) -> Vec<f64> {
+    let way = around as f64 * STEP;
+    let curvature = |it: &[Point]| angle([&it[0], &it[around]], [&it[around], &it[2 * around]]) / way;
     points.windows(2 * around + 1).map(curvature).collect()
+}
+
+/// The curvature in the middle of points every [`STEP`] between the chords at both ends of them [1/m], to the left
+/// positive; 0 outside corners.
+fn in_corner(points: &[Point]) -> f64 {
+    let turn = angle([&points[0], &points[CHORD]], [&points[WITHIN], &points[WITHIN + CHORD]]);
+    if turn.abs() >= CORNER { turn / (WITHIN as f64 * STEP) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -259,6 +274,37 @@ mod tests {
                 (start - 100.0).abs() < 6.0 && (end - 100.0 - arc).abs() < 6.0,
                 "{radius}: {start} {end}"
             );
+        }
+    }
+
+    #[test]
+    fn a_corner_is_as_tight_as_the_line_turns_within_ten_metres() {
+        /// A line that turns left by this angle, in so many equal kinks within so many metres.
+        fn corner(angle: f64, kinks: u32, within: f64) -> Vec<Point> {
+            let piece = within / f64::from(kinks.max(2) - 1);
+            let mut at = Point::new(60.0, 0.0, 0.0);
+            let mut points = vec![Point::new(0.0, 0.0, 0.0), at];
+            for kink in 1..=kinks {
+                let (sin, cos) = (angle * f64::from(kink) / f64::from(kinks)).sin_cos();
+                let way = if kink == kinks { 60.0 } else { piece };
+                at = Point::new(at.x + way * cos, at.y + way * sin, 0.0);
+                points.push(at);
+            }
+            points
+        }
+        for limit in [30.0, 50.0, 100.0] {
+            for (degrees, kinks, within) in
+                [(90.0_f64, 1, 0.0), (90.0, 4, 4.0), (60.0, 1, 0.0), (120.0, 6, 6.0)]
+            {
+                let angle = degrees.to_radians();
+                let network = network(&[corner(angle, kinks, within)], limit / 3.6);
+                let bends = &network.chains[0].bends;
+                let tightest = bends.iter().max_by(|a, b| a.curvature.total_cmp(&b.curvature)).unwrap();
+                let turn = 10.0 * tightest.curvature;
+                assert!((0.93..1.1).contains(&(turn / angle)), "{limit} {degrees} {kinks}: {turn}");
+                let middle = 60.0 + 0.5 * within;
+                assert!(tightest.start < middle && middle < tightest.end, "{limit} {degrees}: {tightest:?}");
+            }
         }
     }
 

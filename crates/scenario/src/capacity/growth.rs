@@ -25,10 +25,11 @@ impl Growth<'_> {
         /// The demand, as a multiple of that which fills the first part, at which the most get through: some parts
         /// take in more then, and others are not yet blocked (ours).
         const GROWTHS: [f64; 2] = [1.4, 2.0];
-        let Some(full) = self.fullest(rates) else {
+        let assignment = (self.assign)(rates, &Thinning::default());
+        let Some(full) = self.fullest(&assignment) else {
             return Capacity { veh_h: 0.0, queues_from_veh_h: 0.0, bottleneck: None };
         };
-        let from = (self.assign)(rates, &Thinning::default()).total / full.share * SECONDS_PER_HOUR;
+        let from = assignment.total / full.share * SECONDS_PER_HOUR;
         let most = match full.of {
             Bottleneck::Town => from,
             _ => GROWTHS.map(|it| self.arriving(rates, it / full.share)).into_iter().fold(0.0, f64::max),
@@ -57,12 +58,11 @@ impl Growth<'_> {
         (self.assign)(&rates, &thinning).arriving * SECONDS_PER_HOUR
     }
 
-    /// The part that is full first when the demands grow from these `rates` on, if anybody drives.
-    fn fullest(&self, rates: &[f64]) -> Option<Load> {
+    /// The part that is full first when the flows of this `assignment` grow, if anybody drives.
+    fn fullest(&self, assignment: &Assignment) -> Option<Load> {
         // Of parts with equal loads the first counts, however their numbers are rounded.
         let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
-        let assignment = (self.assign)(rates, &Thinning::default());
-        self.with_loads(&assignment, |roads, movements, loads| {
+        self.with_loads(assignment, |roads, movements, loads| {
             let fullest = loads.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
             let part = fullest.filter(|it| it.share > 0.0)?;
             Some(town::load(roads, movements, 1.0 / part.share).unwrap_or(part))
@@ -98,7 +98,7 @@ impl Growth<'_> {
 
     /// The demand of each origin [veh/h], from demands in proportion to `rates` on; `None` if nothing is ever full.
     pub(crate) fn fill(&self, rates: &[f64]) -> Option<Vec<f64>> {
-        let mut full = self.fullest(rates)?;
+        let mut full = self.fullest(&(self.assign)(rates, &Thinning::default()))?;
         let mut rates: Vec<f64> = rates.iter().map(|it| it / full.share).collect();
         let mut grows = vec![true; rates.len()];
         for _ in 0..Growth::ROUNDS {
@@ -124,7 +124,9 @@ impl Growth<'_> {
     /// `None` if nothing is.
     fn growth(&self, grown: impl Fn(f64) -> Vec<f64>) -> Option<(f64, Load)> {
         const HALVINGS: u32 = 5;
-        let overfull = |by: f64| self.fullest(&grown(by)).filter(|it| it.share > 1.0);
+        let overfull = |by: f64| {
+            self.fullest(&(self.assign)(&grown(by), &Thinning::default())).filter(|it| it.share > 1.0)
+        };
         let (mut low, mut high) = (1.0, 2.0);
         let mut full = loop {
             match overfull(high) {

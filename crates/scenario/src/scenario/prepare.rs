@@ -14,7 +14,7 @@ use super::demand::{Amount, check_ways, demand};
 use super::made_signals::MadeLights;
 use super::map::read_map;
 use super::mixture::mixture;
-use super::settling::{Settling, estimate, origins};
+use super::settling::{Settled, Settling, estimate, origins};
 use super::signals::plans;
 use super::turns::check_arrivals;
 use super::{Origin, Scenario, SumoFile};
@@ -177,12 +177,15 @@ fn prepare_with(
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
     let queues = Queues::new(&Population::by_speed(&mixture), scenario.demand.fleet(), network.law);
     let settling = Settling { scenario, measured, queues: &queues, made: &made };
-    let (world, basis) = settling.settle(&network, build)?;
+    let Settled { world, basis, capacity } = settling.settle(&network, build)?;
     let origins = origins(&world, measured);
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);
     let world = equipped(world, warmup_steps, scenario, origin)?;
-    let capacity = estimate(&world, measured, queues, made);
+    let capacity = match capacity {
+        Some(known) => Estimate::new(Box::new(move || known)),
+        None => estimate(&world, measured, queues, made),
+    };
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
     let player = playing.player(scenario, origin, &world)?;

@@ -22,26 +22,26 @@ pub(super) struct Settling<'a> {
 }
 
 impl Settling<'_> {
-    /// The world that `build` makes on the network with the programs for its demand, and the basis of that demand. If
-    /// the scenario leaves it open, it is a share of what each origin bears, and none beside a recording.
+    /// What `build` makes on the network with the programs for its demand. If the scenario leaves the demand open, it is
+    /// a share of what each origin bears, and none beside a recording.
     pub(super) fn settle(
         &self,
         network: &Arc<Network>,
         build: impl Fn(&Arc<Network>, Option<&Amount>) -> Result<World, Fault>,
-    ) -> Result<(World, Basis), Fault> {
+    ) -> Result<Settled, Fault> {
         let is_open = Basis::is_open(&self.scenario.demand);
         let is_estimated = is_open && !self.scenario.replay.is_asked();
         // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
         let smallest = is_open.then_some(Amount::Total(if is_estimated { 1.0 } else { 0.0 }));
         let world = build(network, smallest.as_ref())?;
         if !is_estimated && !self.made.are_on(network) {
-            return Ok((world, Basis::Given));
+            return Ok(Settled { world, basis: Basis::Given, capacity: None });
         }
-        let rates: Vec<f64> = origins(&world, self.measured).iter().map(|it| it.1).collect();
-        let usual = if is_estimated { self.usual(&world, network, &rates) } else { None };
+        let usual = if is_estimated { self.usual(&world, network) } else { None };
+        let is_given = || !is_estimated && origins(&world, self.measured).iter().any(|it| it.1 > 0.0);
         let (assignment, is_known) = match &usual {
-            Some(rates) => (world.assignment_of(rates, &Thinning::default()), true),
-            None => (world.assignment(self.measured), !is_estimated && rates.iter().any(|it| *it > 0.0)),
+            Some((rates, _)) => (world.assignment_of(rates, &Thinning::default()), true),
+            None => (world.assignment(self.measured), is_given()),
         };
         drop(world);
         let total = is_known.then_some(assignment.total);
@@ -51,22 +51,36 @@ impl Settling<'_> {
             (true, Some(_)) => Basis::Estimated,
             (true, None) => Basis::Usual,
         };
-        let amount = if is_estimated { usual.map(Amount::Each) } else { smallest };
-        Ok((build(&network, amount.as_ref())?, basis))
+        let (rates, capacity) = usual.unzip();
+        let amount = if is_estimated { rates.map(Amount::Each) } else { smallest };
+        Ok(Settled { world: build(&network, amount.as_ref())?, basis, capacity })
     }
 
-    /// The default demand of each origin of `world` on `network` [veh/h], from demands in proportion to `rates` on;
+    /// The default demand of each origin of `world` on `network` [veh/h], and the estimated capacity for such a demand;
     /// `None` without an estimate. They are whole numbers, so that they are the same on every machine.
-    fn usual(&self, world: &World, network: &Arc<Network>, rates: &[f64]) -> Option<Vec<f64>> {
-        let network = &self.made.programmed(network, &world.assignment(self.measured), self.queues, None);
-        let assign = &|rates: &[f64], thinning: &Thinning| world.assignment_of(rates, thinning);
+    fn usual(&self, world: &World, network: &Arc<Network>) -> Option<(Vec<f64>, Capacity)> {
         let inner_places = &inner_places(world.demand());
-        let growth = Growth { network, assign, inner_places, queues: self.queues };
-        let borne = growth.fill(rates)?;
-        let Capacity { veh_h, queues_from_veh_h, .. } = growth.capacity(&borne);
-        let usual = (USUAL_SHARE * veh_h).min(FULLEST * queues_from_veh_h) / borne.iter().sum::<f64>();
-        Some(borne.into_iter().map(|it| (usual * it).round().max(1.0)).collect())
+        let assign = &|rates: &[f64], thinning: &Thinning| world.assignment_of(rates, thinning);
+        let programmed = |rates: &[f64]| {
+            self.made.programmed(network, &assign(rates, &Thinning::default()), self.queues, None)
+        };
+        let rates = world.demand().mean_rates(network, self.measured);
+        let network = &programmed(&rates);
+        let borne = Growth { network, assign, inner_places, queues: self.queues }.fill(&rates)?;
+        let network = &programmed(&borne);
+        let capacity = Growth { network, assign, inner_places, queues: self.queues }.capacity(&borne);
+        let demand = (USUAL_SHARE * capacity.veh_h).min(FULLEST * capacity.queues_from_veh_h);
+        let share = demand / borne.iter().sum::<f64>();
+        Some((borne.into_iter().map(|it| (share * it).round().max(1.0)).collect(), capacity))
     }
+}
+
+/// A world with its demand.
+pub(super) struct Settled {
+    pub(super) world: World,
+    pub(super) basis: Basis,
+    /// The estimated capacity, if the demand is a share of it.
+    pub(super) capacity: Option<Capacity>,
 }
 
 /// Where trips start in `world`, each with its mean demand between two times [s] [veh/h].

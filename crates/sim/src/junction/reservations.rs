@@ -337,10 +337,11 @@ impl Reservation {
         self.extent - self.travelled
     }
 
-    /// The length of it that remains in front of the vehicle, whatever the lights show [m].
-    pub(crate) fn left_for_certain(&self) -> f64 {
+    /// The length of it that remains in front of the vehicle, whatever lights more than `after` ahead [m] show [m].
+    pub(crate) fn left_for_certain(&self, after: f64) -> f64 {
         let ends = self.lights.iter().map(|(_, line)| self.zone_over(*line).unwrap_or(*line).min(*line));
-        ends.filter(|it| *it > self.travelled).fold(self.extent, f64::min) - self.travelled
+        let ends = ends.map(|it| it - self.travelled).filter(|it| *it > after.max(0.0));
+        ends.fold(self.left(), f64::min)
     }
 
     /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light [m], from the

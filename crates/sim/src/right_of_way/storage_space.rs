@@ -4,7 +4,7 @@ use laneweave_network::Side;
 
 use crate::junction::need::SPARE_SPACE;
 use crate::junction::storage_section::StorageSection;
-use crate::right_of_way::survey::{ROUNDING, parts};
+use crate::right_of_way::survey::{BEFORE_A_ZONE, ROUNDING, parts};
 use crate::route::walk::Leg;
 use crate::state::lane::Phase;
 use crate::view::scene::{Scene, Spot, Viewpoint};
@@ -18,6 +18,8 @@ const EXPECTED_BRAKING: f64 = 4.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beyond {
     pub(crate) section: StorageSection,
+    /// Where it stops without the reservation.
+    pub(crate) stop: f64,
     /// End of the zones.
     pub(crate) clear: f64,
     /// The next place to stop, or the end of the route.
@@ -31,7 +33,7 @@ pub(crate) struct Beyond {
 /// leads it out of them or off the route.
 pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
-    let Beyond { section, clear, limit, arrival } = beyond;
+    let Beyond { section, stop, clear, limit, arrival } = beyond;
     if scene.waits_beside_in_fork(from).is_some() {
         return NONE;
     }
@@ -55,7 +57,9 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
             }
             let spot = Spot { chain, index };
             let reservation = scene.reservations.of(lane.lane_change_states()[index].reservation, motion.id);
-            let gets_to = rear + reservation.map_or(0.0, |it| it.left_for_certain().max(0.0));
+            // Behind a vehicle that stops for a light at the same place, it stops before all zones.
+            let after = stop + BEFORE_A_ZONE + ROUNDING - base - motion.x;
+            let gets_to = rear + reservation.map_or(0.0, |it| it.left_for_certain(after).max(0.0));
             if rear >= clear {
                 // A vehicle whose reservation leads beyond the storage space does not stop in it.
                 if gets_to < limit {

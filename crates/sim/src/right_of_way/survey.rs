@@ -260,7 +260,7 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
     let limit = if place - clear >= out.needed { limit.min(place) } else { limit };
     out.most = (limit - clear).max(out.needed);
     let arrival = applicant.time_to(out.extent);
-    out.space = space(scene, from, Beyond { section: out.section, clear, limit, arrival });
+    out.space = space(scene, from, Beyond { section: out.section, stop: out.stop, clear, limit, arrival });
 }
 
 /// The chain on the route with the place `distance` ahead [m].

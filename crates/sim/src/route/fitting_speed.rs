@@ -5,7 +5,7 @@
 
 use laneweave_models::change::SIGHT;
 use laneweave_models::{Style, bends};
-use laneweave_network::{Bend, Chain, Limit, Network, Position};
+use laneweave_network::{Bend, Chain, ChainIndex, Limit, Network, Position};
 
 use crate::route::navigate::Navigator;
 use crate::route::walk::Leg;
@@ -40,6 +40,14 @@ impl Outlook<'_> {
         let reach = (way + desired * desired / (2.0 * style.manner.anticipating())).min(SIGHT);
         let is_clear = !here.has_slow_places && at.x + reach < here.length + here.slow_beyond;
         if is_clear || !style.manner.looks_ahead() { desired } else { self.slowed(at, way, reach, desired) }
+    }
+
+    /// The speed [m/s] that the driver desires who has just left `chain`, until it looks again, because half of its
+    /// vehicle is in a bend there; infinite if it is not.
+    pub(crate) fn leaving_speed(&self, chain: ChainIndex) -> f32 {
+        let chain = self.network.chain(chain);
+        let middle = chain.length - 0.5 * self.class.body().length;
+        chain.bends.last().filter(|it| it.end > middle).map_or(f32::INFINITY, |it| self.bend_speed(it) as f32)
     }
 
     /// The speed [m/s] at which the driver drives through a bend; infinite for one who does not slow for bends.

@@ -87,7 +87,8 @@ impl Transfer<'_> {
         entry.lane_change.previous_lanes = entry.lane_change.previous_lanes.left(from);
         let Entry { motion, driver, .. } = &mut entry;
         let outlook = self.roads.outlook(driver);
-        driver.limit_desired = outlook.until_turn(onto, motion.speed, driver.due, self.traffic.clock());
+        let ahead = outlook.until_turn(onto, motion.speed, driver.due, self.traffic.clock());
+        driver.limit_desired = ahead.min(outlook.leaving_speed(from));
         self.tell_counterpart(&entry, Some(onto));
         self.traffic.insert(onto.chain, entry);
     }
