@@ -167,8 +167,8 @@ fn turn_between(one: &Chain, next: &Chain) -> f64 {
     turn(one.centre.heading(one.length), next.centre.heading(0.0)).abs()
 }
 
-/// Points of `line` every [`STEP`] along a chain of this `length`, and this number `more` at both ends. The chain starts
-/// at `before` on it [m].
+/// Points of `line` every [`STEP`] along a chain of this `length`, and this number `more` at both ends. The chain
+/// starts at `before` on it [m].
 fn sampled(line: &Polyline, before: f64, length: f64, more: usize) -> Vec<Point> {
     let count = (length / STEP).ceil() as usize + 1 + 2 * more;
     let first = before - more as f64 * STEP;
@@ -202,8 +202,8 @@ fn turn_of(line: &Polyline) -> f64 {
     line.points().windows(3).map(|it| angle([&it[0], &it[1]], [&it[1], &it[2]]).abs()).sum()
 }
 
-/// Curvatures between the chords to the points this number `around` each [1/m], to the left positive. Along the way, and
-/// not along an averaged line: this cuts corners.
+/// Curvatures between the chords to the points this number `around` each [1/m], to the left positive. Along the way,
+/// and not along an averaged line: this cuts corners.
 fn curvatures(points: &[Point], around: usize) -> Vec<f64> {
     let way = around as f64 * STEP;
     let curvature = |it: &[Point]| angle([&it[0], &it[around]], [&it[around], &it[2 * around]]) / way;

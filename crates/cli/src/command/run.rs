@@ -306,5 +306,6 @@ fn warn(simulation: &Simulation) {
         eprintln!("warning: map: {remark}");
     }
     simulation.demand_note().iter().for_each(|it| eprintln!("{it}"));
-    simulation.demand_warning().iter().for_each(|it| eprintln!("warning: {it}"));
+    let warnings = [simulation.step_warning(), simulation.demand_warning()];
+    warnings.iter().flatten().for_each(|it| eprintln!("warning: {it}"));
 }

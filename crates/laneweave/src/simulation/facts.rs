@@ -44,6 +44,11 @@ impl Simulation {
         self.prepared.demand_warning()
     }
 
+    /// A warning for the screen if the step is so long that it changes the traffic, in a line.
+    pub fn step_warning(&self) -> Option<String> {
+        self.prepared.step_warning()
+    }
+
     /// What did not happen as the scenario asks, in a line each: the first commands that were refused, and external
     /// vehicles that are not on the road yet.
     pub fn warnings(&self) -> Vec<String> {

@@ -68,10 +68,11 @@ fn who_finds_somebody_waiting_in_front_in_an_endless_stream_gets_its_turn_all_th
     for seed in 1..=4 {
         let mut scenario = Scenario::of_map(map.clone());
         scenario.run.seed = seed;
+        scenario.run.audit = true;
         scenario.demand.vehicles_per_hour = Some(1800.0);
         let mut world = prepare(&scenario, &Origin::default()).expect("the map is sound").world;
         (0..9000).for_each(|_| world.step());
         let counters = world.counters();
-        assert_eq!((counters.stuck, counters.collisions), (0, 0), "seed {seed}");
+        assert_eq!((counters.stuck, counters.collisions, counters.overlaps), (0, 0, 0), "seed {seed}");
     }
 }

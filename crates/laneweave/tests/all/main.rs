@@ -23,6 +23,7 @@ mod null_model_control;
 mod roundabouts;
 mod simulated;
 mod simulation;
+mod steps;
 mod styles;
 mod turns;
 mod two_entries;

@@ -54,8 +54,31 @@ impl Crossing {
         (1.0 / (self.duration * per_metre)).max(Crossing::CREEPS)
     }
 
+    /// Usually a change takes no less than its time. A vehicle that creeps does it on the road that is left all the
+    /// same: it cannot be slower.
     #[inline]
     fn paced(self, per_metre: f64) -> f64 {
-        if self.speed < Crossing::STANDS { 0.0 } else { (self.speed * self.duration * per_metre).min(1.0) }
+        let most = (Crossing::CREEPS * self.duration * per_metre).max(1.0);
+        if self.speed < Crossing::STANDS { 0.0 } else { (self.speed * self.duration * per_metre).min(most) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_creeps_is_across_on_the_road_that_is_left() {
+        // Half of a change of 13 s on 0.8 m: at 0.15 m/s it would take 6.5 s, and the road is over after 5.3 s.
+        let per_metre = 0.5 / 0.8;
+        let creeping = Crossing { speed: 0.15, length: 4.5, duration: 13.0 };
+        assert_eq!(creeping.fastest(per_metre), 0.15);
+        assert!((creeping.progress_in(0.8 / 0.15, per_metre) - 0.5).abs() < 1e-12);
+        // Who is faster takes the time of the change, and slows down for that reason.
+        let faster = Crossing { speed: 2.0, duration: 4.0, ..creeping };
+        assert_eq!(faster.progress_in(0.4, per_metre), 0.1);
+        assert!(faster.fastest(per_metre) < 0.5);
+        // With road enough nobody is faster than usual.
+        assert!((creeping.pace() - 0.15 * 13.0 / 12.0).abs() < 1e-12);
     }
 }

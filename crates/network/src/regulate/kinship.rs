@@ -76,8 +76,10 @@ impl<'a> Kinship<'a> {
 
     /// How two chains meet on the stretches from `starts` to `ends`.
     pub(super) fn meeting(&self, [a, b]: [ChainIndex; 2], starts: [f64; 2], ends: [f64; 2]) -> Meeting {
-        let forks = common(&self.ancestors[a.at()], &self.ancestors[b.at()])
-            .any(|(to_a, to_b)| (to_a + starts[0] - to_b - starts[1]).abs() < SAME);
+        let forks = common(&self.ancestors[a.at()], &self.ancestors[b.at()]).any(|(kin, [to_a, to_b])| {
+            let is_one_place = (to_a + starts[0] - to_b - starts[1]).abs() < SAME;
+            is_one_place && [a, b].iter().all(|it| self.comes_only_from(kin, *it))
+        });
         if forks && starts[0].min(starts[1]) < SAME {
             return Meeting::Forks;
         }
@@ -86,7 +88,7 @@ impl<'a> Kinship<'a> {
         }
         let [length_a, length_b] = [a, b].map(|it| self.network.chain(it).length);
         let merge = common(&self.descendants[a.at()], &self.descendants[b.at()])
-            .map(|(from_a, from_b)| [length_a + from_a, length_b + from_b])
+            .map(|(_, [from_a, from_b])| [length_a + from_a, length_b + from_b])
             .find(|[at_a, at_b]| (at_a - ends[0] - at_b + ends[1]).abs() < SAME);
         if let Some(stations) = merge
             && (length_a - ends[0]).min(length_b - ends[1]) < SAME
@@ -94,6 +96,28 @@ impl<'a> Kinship<'a> {
             return Meeting::Merges(stations);
         }
         Meeting::Crosses
+    }
+
+    /// Whether all who come to `chain` come from its ancestor `kin`: no other lane joins in between.
+    fn comes_only_from(&self, kin: ChainIndex, chain: ChainIndex) -> bool {
+        let mut known = vec![chain];
+        let mut at = 0;
+        while let Some(chain) = known.get(at) {
+            let previous = &self.network.chain(*chain).previous;
+            if previous.is_empty() || !previous.iter().all(|it| self.is_from(kin, *it)) {
+                return false;
+            }
+            let further: Vec<ChainIndex> =
+                previous.iter().filter(|it| **it != kin && !known.contains(it)).copied().collect();
+            known.extend(further);
+            at += 1;
+        }
+        true
+    }
+
+    /// Whether `chain` is `kin`, or `kin` is one of its ancestors.
+    fn is_from(&self, kin: ChainIndex, chain: ChainIndex) -> bool {
+        chain == kin || self.ancestors[chain.at()].iter().any(|it| it.0 == kin)
     }
 
     /// Whether two chains begin at one place at the edge of the map, and in one direction.
@@ -143,9 +167,9 @@ fn within_reach<'n>(
     found
 }
 
-/// The distances to the related chains that two chains have in common.
-fn common(a: &[(ChainIndex, f64)], b: &[(ChainIndex, f64)]) -> impl Iterator<Item = (f64, f64)> {
+/// The related chains that two chains have in common, with the distances to them.
+fn common(a: &[(ChainIndex, f64)], b: &[(ChainIndex, f64)]) -> impl Iterator<Item = (ChainIndex, [f64; 2])> {
     a.iter().flat_map(move |(kin, from_a)| {
-        b.iter().filter(move |it| it.0 == *kin).map(move |(_, from_b)| (*from_a, *from_b))
+        b.iter().filter(move |it| it.0 == *kin).map(move |(_, from_b)| (*kin, [*from_a, *from_b]))
     })
 }

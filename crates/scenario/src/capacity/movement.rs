@@ -112,9 +112,9 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
     all
 }
 
-/// Mean delay before a start [s], at the usual steps of 0.1 s: a driver that gives way sees in the next step that the
-/// zones are free, gets its reservation at the end of that step, and starts in the one after.
-const NOTICES_AFTER: f64 = 0.15;
+/// Mean delay before a start [s], at the usual steps of 0.1 s: a driver that gives way gets its reservation at the end
+/// of the step in which the zones become free, and starts in the next one.
+const NOTICES_AFTER: f64 = 0.05;
 
 /// Sets the times of `movement`: with priority, vehicles keep their headway; otherwise they start from rest, and keep
 /// others away until their rears are clear.

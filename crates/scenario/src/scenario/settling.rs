@@ -22,8 +22,8 @@ pub(super) struct Settling<'a> {
 }
 
 impl Settling<'_> {
-    /// What `build` makes on the network with the programs for its demand. If the scenario leaves the demand open, it is
-    /// a share of what each origin bears, and none beside a recording.
+    /// What `build` makes on the network with the programs for its demand. If the scenario leaves the demand open, it
+    /// is a share of what each origin bears, and none beside a recording.
     pub(super) fn settle(
         &self,
         network: &Arc<Network>,

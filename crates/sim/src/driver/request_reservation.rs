@@ -48,37 +48,29 @@ pub(crate) fn request_reservations(
             }
             continue;
         }
+        let Waiting { since, id, .. } = *waiting;
+        let request = ReservationRequest { since, id, chain, x: motion.x, what: RequestKind::Pass };
         match may_pass(scene, &applicant, &outbox.survey, asking) {
-            Ok(()) => outbox.reservation_requests.push(ReservationRequest {
-                since: waiting.since,
-                id: motion.id,
-                chain,
-                x: motion.x,
-                what: RequestKind::Pass,
-            }),
+            Ok(()) => outbox.reservation_requests.push(request),
             Err(PassHindrance::Others) => {
                 outbox.priorities.extend(turns(scene, &applicant, &outbox.survey.holds, asking.priority));
+                outbox.reservation_requests.push(request);
             }
             Err(hindrance @ (PassHindrance::Space | PassHindrance::Roundabout)) => {
                 if !asking.priority.is_patient {
                     request_space(scene, spot, asking.priority, hindrance, outbox);
                 }
                 if hindrance == PassHindrance::Space && motion.speed < STANDS {
-                    let Waiting { since, id, .. } = *waiting;
-                    outbox.blocked.push(ReservationRequest {
-                        since,
-                        id,
-                        chain,
-                        x: motion.x,
-                        what: RequestKind::Pass,
-                    });
+                    outbox.blocked.push(request);
                 }
+                outbox.reservation_requests.push(request);
             }
             Err(PassHindrance::Light) if starves(scene, asking, &outbox.survey) => {
                 survey_at(scene, &applicant, |_, _| false, &mut outbox.survey);
                 request_space(scene, spot, asking.priority, PassHindrance::Light, outbox);
             }
-            Err(PassHindrance::Light | PassHindrance::Sign | PassHindrance::Blocked) => {}
+            Err(PassHindrance::Blocked | PassHindrance::Sign) => outbox.reservation_requests.push(request),
+            Err(PassHindrance::Light) => {}
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What a driver reacts to at a junction while it drives on.
 
+use laneweave_models::braking::stays_secure;
 use laneweave_models::follow::Ahead;
 use laneweave_network::{ChainIndex, LightIndex, LightState, Precedence, Sign, Zone, ZoneKind};
 
@@ -65,11 +66,12 @@ pub(crate) struct FirstIntoMerge {
     pub(crate) stop: f64,
 }
 
-/// How far ahead a driver on `chain` at `speed` [m/s] reacts to junctions [m].
+/// How far ahead a driver on `chain` at `speed` [m/s] reacts to junctions [m]: at a roundabout before it would have to
+/// brake in the next step.
 #[inline]
 pub(crate) fn sight(scene: &Scene, chain: ChainIndex, speed: f64) -> f64 {
     if scene.reservations.roundabouts.touches(chain) {
-        speed * speed / (2.0 * BRAKES) + EARLY_AT_A_ROUNDABOUT * speed + NEAR_AT_A_ROUNDABOUT
+        speed * speed / (2.0 * BRAKES) + (EARLY_AT_A_ROUNDABOUT + scene.dt) * speed + NEAR_AT_A_ROUNDABOUT
     } else {
         speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
     }
@@ -116,7 +118,7 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         let is_settled = !driver.phase.is_between_lanes();
         let may_ask = !driver.is_shadow && is_settled && junction.revokes_from.is_none() && keeps_lane;
         let is_entry = scene.reservations.roundabouts.is_entry(spot.chain);
-        let looks = stop < LOOKS_FROM || !is_entry || !gives_way(scene, &what);
+        let looks = stop - motion.speed * scene.dt < LOOKS_FROM || !is_entry || !gives_way(scene, &what);
         junction.asks = may_ask && looks && is_first(scene, scene.viewpoint(spot), stop);
         junction.is_held =
             matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
@@ -272,7 +274,9 @@ fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64
     let from = zone.map_or(line, |it| line.min(it - BEFORE_REVOKED));
     let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - reservation.travelled;
     let left = from - reservation.travelled;
-    (left > 0.0 && stops_gently(speed, stop.max(0.5 * left))).then_some(from)
+    let slower = (speed - STOPS_AT_YELLOW * scene.dt).max(0.0);
+    let is_secure = slower == 0.0 || stays_secure(speed, slower, Ahead::standing(stop), scene.dt);
+    (left > 0.0 && is_secure && stops_gently(speed, stop.max(0.5 * left))).then_some(from)
 }
 
 /// Whether a driver at `speed` [m/s] can stop without hard braking for a place `at` metres ahead. It stops with room

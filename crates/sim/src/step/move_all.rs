@@ -42,6 +42,7 @@ pub(crate) fn move_all(
                 navigator,
                 lanes,
                 driver_parameters,
+                dt: clock.dt,
                 reservations,
                 signals,
                 externals,

@@ -31,6 +31,8 @@ pub struct Scene<'a> {
     pub lanes: &'a [Lane],
     /// The table of driver parameters, to which vehicles refer.
     pub driver_parameters: &'a [Style],
+    /// How long a step is [s].
+    pub(crate) dt: f64,
     /// The reservations at junctions.
     pub reservations: &'a Reservations,
     /// What the lights show.
@@ -88,6 +90,7 @@ impl<'a> Scene<'a> {
             navigator: roads.navigator(),
             lanes: traffic.lanes(),
             driver_parameters: roads.driver_parameters(),
+            dt: traffic.clock().dt,
             reservations: junctions.reservations(),
             signals: junctions.signals(),
             externals: traffic.externals(),

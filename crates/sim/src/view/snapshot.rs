@@ -66,6 +66,9 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// A recorded instant is seen as one of a world with these steps.
+    const CLOCK: Clock = Clock { step: 0, dt: 0.1 };
+
     /// The instant with `vehicles` on `network`.
     ///
     /// # Panics
@@ -86,8 +89,7 @@ impl Snapshot {
             spots.extend(main.map(|(index, (motion, _))| (motion.id, Spot { chain, index })));
         }
         spots.sort_by_key(|(id, _)| *id);
-        let (reservations, signals) =
-            (Reservations::new(network), Signals::new(network, Clock { step: 0, dt: 1.0 }));
+        let (reservations, signals) = (Reservations::new(network), Signals::new(network, Snapshot::CLOCK));
         Snapshot { lanes, reservations, signals, externals: Externals::default(), spots }
     }
 
@@ -100,8 +102,8 @@ impl Snapshot {
     ) -> Scene<'a> {
         let Snapshot { lanes, reservations, signals, externals, .. } = self;
         // A recorded instant has no seed: it is seen as it is.
-        let errors = None;
-        Scene { network, navigator, lanes, driver_parameters, reservations, signals, externals, errors }
+        let (errors, dt) = (None, Snapshot::CLOCK.dt);
+        Scene { network, navigator, lanes, driver_parameters, dt, reservations, signals, externals, errors }
     }
 
     /// Gives the driver of the vehicle whose main entry is at `spot` another desired speed [m/s].

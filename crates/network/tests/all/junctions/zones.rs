@@ -70,6 +70,22 @@ fn lanes_that_fork_off_together_are_not_in_each_others_way() {
 }
 
 #[test]
+fn lanes_that_fork_off_together_are_in_each_others_way_where_a_lane_in_between_brings_others() {
+    // The upper branch crosses the lower one after 25 m.
+    let fork = || {
+        Lanes::default()
+            .with(straight((-100.0, 0.0), (0.0, 0.0)), &[1, 2])
+            .with(straight((0.0, 0.0), (25.0, 3.0)), &[3])
+            .with(straight((0.0, 0.0), (100.0, 0.0)), &[])
+            .with(straight((25.0, 3.0), (55.0, -15.0)), &[])
+    };
+    let crosses = |it: &Zone| it.kind == ZoneKind::Crossing && it.touch == Touch::Any;
+    assert!(!fork().zones().iter().any(crosses));
+    let joined = fork().with(straight((-60.0, 30.0), (25.0, 3.0)), &[3]);
+    assert_eq!(joined.zones().iter().filter(|it| crosses(it)).count(), 1);
+}
+
+#[test]
 fn lanes_that_begin_together_at_the_edge_of_the_map_are_entered_one_behind_the_other() {
     let lanes = Lanes::default()
         .with(straight((0.0, 0.0), (100.0, 0.0)), &[])
