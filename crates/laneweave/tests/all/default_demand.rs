@@ -43,3 +43,13 @@ fn more_get_through_than_where_queues_begin_but_where_all_pass_one_part() {
     }
     assert!(more >= 6, "{more} of 12");
 }
+
+#[test]
+fn long_vehicles_get_into_a_lane_that_is_wide_enough_for_them_on_its_last_metres_only() {
+    // Random map 3: the lane of its off-ramp is beside the road for 66 m, and 2.55 m wide on 9 m of these; beside the
+    // road there is another lane on the left all along.
+    let mut world = prepared(3, Some(1800.0)).world;
+    (0..12_000).for_each(|_| world.step());
+    let (left, waiting, stuck) = (world.counts().left, world.waiting(), world.counters().stuck);
+    assert!(left > 450 && waiting < 5 && stuck == 0, "{left} {waiting} {stuck}");
+}

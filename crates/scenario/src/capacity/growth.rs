@@ -7,7 +7,7 @@ use laneweave_study::units::SECONDS_PER_HOUR;
 
 use super::lights::Equivalents;
 use super::movement::{Movement, movements};
-use super::{Bottleneck, Capacity, Load, Queues, Roads, conflict, lanes, lights, town};
+use super::{Bottleneck, Capacity, Load, Queues, Roads, conflict, lanes, lights, tight, town};
 
 /// The map, the routes of the demand, and its drivers.
 pub(crate) struct Growth<'a> {
@@ -81,7 +81,8 @@ impl Growth<'_> {
         let movements = movements(&roads);
         let junctions = conflict::loads(&roads, &movements);
         let inner_places = town::inner_place_loads(&roads, inner_places);
-        let mut loads = lanes::loads(&roads).into_iter().chain(junctions).chain(inner_places);
+        let lanes = lanes::loads(&roads).into_iter();
+        let mut loads = lanes.chain(junctions).chain(tight::loads(&roads)).chain(inner_places);
         of(&roads, &movements, &mut loads)
     }
 }

@@ -15,6 +15,7 @@ mod movement;
 mod queues;
 mod side_by_side;
 mod stream;
+mod tight;
 mod town;
 mod weaving;
 

@@ -67,6 +67,18 @@ impl<'a> Mixture<'a> {
         self.mean(|it| of(it.class.body().length, it.desired))
     }
 
+    /// The share of long vehicles.
+    pub(super) fn share_of_long(&self) -> f64 {
+        self.mean(|it| if it.class.is_long() { 1.0 } else { 0.0 })
+    }
+
+    /// The mean of the same function over long vehicles; 0 if there are none.
+    pub(super) fn mean_of_long(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
+        let long = |it: &Kind| if it.class.is_long() { of(it.class.body().length, it.desired) } else { 0.0 };
+        let share = self.share_of_long();
+        if share > 0.0 { self.mean(long) / share } else { 0.0 }
+    }
+
     /// Mean critical gap of the drivers [s].
     pub(super) fn critical_gap(&self) -> f64 {
         self.mean(|it| it.style.yielding.critical_gap)

@@ -230,8 +230,8 @@ impl Prepared {
         let step = self.world.clock().dt;
         (step > SAFE_STEP).then(|| {
             format!(
-                "run.step_s = {step}: above {SAFE_STEP} s drivers need larger gaps, so delays grow by a half and more, and \
-                 lane changes become fewer; set {SAFE_STEP} or less"
+                "run.step_s = {step}: above {SAFE_STEP} s drivers need larger gaps, so delays grow by a third or more, \
+                 and there are fewer lane changes; set {SAFE_STEP} or less"
             )
         })
     }

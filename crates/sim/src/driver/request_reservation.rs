@@ -21,7 +21,8 @@ use crate::view::scene::{Scene, Spot};
 /// then comes first to that space (ours; as long as drivers are patient elsewhere).
 const STARVES: f64 = 45.0;
 
-/// Adds the requests of the drivers of a lane who wait at a junction and may pass.
+/// Adds the requests of the drivers of a lane who wait at a junction, but not for a light. Whoever may not pass yet may
+/// do so once all have moved.
 pub(crate) fn request_reservations(
     scene: &Scene,
     clock: Clock,
@@ -41,15 +42,16 @@ pub(crate) fn request_reservations(
             continue;
         }
         let asking = Asking::of(&applicant, waiting.since, clock);
+        let Waiting { since, id, .. } = *waiting;
+        let request = ReservationRequest { since, id, chain, x: motion.x, what: RequestKind::Pass };
         if !are_led_on(scene, &applicant, &outbox.survey) {
             // In an endless stream somebody always waits in front. Long after its patience the driver goes first.
             if asking.waited > STARVES + applicant.style.yielding.patience {
                 outbox.priorities.extend(turns(scene, &applicant, &outbox.survey.holds, asking.priority));
             }
+            outbox.reservation_requests.push(request);
             continue;
         }
-        let Waiting { since, id, .. } = *waiting;
-        let request = ReservationRequest { since, id, chain, x: motion.x, what: RequestKind::Pass };
         match may_pass(scene, &applicant, &outbox.survey, asking) {
             Ok(()) => outbox.reservation_requests.push(request),
             Err(PassHindrance::Others) => {

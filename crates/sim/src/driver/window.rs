@@ -74,6 +74,8 @@ impl Window {
         let mut runs = [[f64::NEG_INFINITY; 2]; 2];
         for Leg { chain, start, .. } in walk {
             let here = scene.network.chain(chain);
+            // Of both sides, the one on which lanes may be changed up to that place and no further.
+            let mut found: Option<[f64; 2]> = None;
             for (side, run) in Side::BOTH.into_iter().zip(&mut runs) {
                 for stretch in here.stretches(side) {
                     let [from, until] = scene.network.window(here, stretch, *class).map(|it| start + it);
@@ -81,10 +83,14 @@ impl Window {
                         continue;
                     }
                     *run = [if from - run[1] < Beside::JOINED { run[0] } else { from }, until];
-                    if from < place && place <= until {
-                        return Some(Window { start: run[0] - x, end: place - x });
+                    let ends_sooner = found.is_none_or(|it| until < it[1]);
+                    if from < place && place <= until && ends_sooner {
+                        found = Some(*run);
                     }
                 }
+            }
+            if let Some([from, _]) = found {
+                return Some(Window { start: from - x, end: place - x });
             }
         }
         None

@@ -30,8 +30,9 @@ const NEAR: f64 = 10.0;
 const BRAKES: f64 = 2.0;
 const EARLY_AT_A_ROUNDABOUT: f64 = 0.5;
 const NEAR_AT_A_ROUNDABOUT: f64 = 2.0;
-/// Drivers who give way to a roundabout look for a gap from this distance before their line on [m], and come to it so
-/// that they can stop (ours: with it one follows another into it after 2.7 s, HCM 6: 2.6 s, from memory).
+/// Drivers who give way to a roundabout look for a gap from this distance and the way of a step before their line on
+/// [m], and come to it so that they can stop (ours: with it one follows another into it after 2.7 s, HCM 6: 2.6 s, from
+/// memory).
 const LOOKS_FROM: f64 = 4.0;
 /// A reservation ends this far before a zone from which on it is revoked [m], so that the driver has to ask for that
 /// zone again.

@@ -47,7 +47,8 @@ impl Outlook<'_> {
     pub(crate) fn leaving_speed(&self, chain: ChainIndex) -> f32 {
         let chain = self.network.chain(chain);
         let middle = chain.length - 0.5 * self.class.body().length;
-        chain.bends.last().filter(|it| it.end > middle).map_or(f32::INFINITY, |it| self.bend_speed(it) as f32)
+        let bends = chain.bends.iter().rev().take_while(|it| it.end > middle);
+        bends.map(|it| self.bend_speed(it) as f32).fold(f32::INFINITY, f32::min)
     }
 
     /// The speed [m/s] at which the driver drives through a bend; infinite for one who does not slow for bends.

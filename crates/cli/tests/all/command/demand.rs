@@ -60,6 +60,19 @@ fn a_demand_above_the_estimate_is_warned_of_with_its_bottleneck() {
 }
 
 #[test]
+fn steps_that_change_the_traffic_are_warned_of() {
+    let map = crate::command::program::maps().join("ramps.osm");
+    let scenario =
+        |step: f64| format!("map = \"{}\"\n[run]\nstep_s = {step}\nduration_s = 2\n", map.display());
+    let folder = Folder::new().with("half.toml", &scenario(0.5)).with("long.toml", &scenario(1.0));
+    let told = |file: &str| folder.laneweave(&format!("run {file} --record 0")).errors();
+    assert!(!told("half.toml").contains("warning"));
+    let warned = "warning: run.step_s = 1: above 0.5 s drivers need larger gaps, so delays grow by a third or more, and there are \
+                  fewer lane changes; set 0.5 or less\n";
+    assert!(told("long.toml").contains(warned), "{}", told("long.toml"));
+}
+
+#[test]
 fn a_demand_that_is_not_given_is_found_again_when_a_run_is_repeated() {
     let folder = Folder::new();
     let first = folder.summary("MAPS/ramps.osm --duration 30 --record 0");

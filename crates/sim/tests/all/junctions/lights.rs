@@ -66,6 +66,34 @@ fn comer_to_a_light(network: &Network, [x, speed]: [f64; 2]) -> World {
     world
 }
 
+#[test]
+fn a_queue_drives_over_the_line_of_a_green_light_without_braking_for_it() {
+    let network = grid_of_lights(60.0, 30.0);
+    let chain = network.entrances[0].chains[0];
+    let line = network.junctions.on(chain).stops[0].station;
+    let mut world = comer_to_a_light(&network, [line - 60.0, 9.0]);
+    let first = world.vehicles().next().expect("it is on the road").driver.goal.destination();
+    for place in 1..4 {
+        let x = line - 60.0 - 20.0 * f64::from(place);
+        let class = Class::Car;
+        let follower = Placement { chain, x, speed: 9.0, class, parameters: 0, destination: first };
+        world.place(follower).expect("it fits on the road");
+    }
+    let mut passed = 0;
+    for _ in 0..200 {
+        let before: HashMap<_, _> =
+            world.vehicles().map(|it| (it.id(), (it.spot.chain, it.speed()))).collect();
+        world.step();
+        for vehicle in world.vehicles() {
+            let (lane, speed) = before[&vehicle.id()];
+            let braking = (speed - vehicle.speed()) / STEP;
+            assert!(lane != chain || braking < 0.5, "{} brakes with {braking} m/s²", vehicle.id());
+            passed += u32::from(lane == chain && vehicle.spot.chain != chain);
+        }
+    }
+    assert_eq!(passed, 4);
+}
+
 /// Number of stuck vehicles after ten minutes: one driver is at a light that is green for 5 s, then red for `red`
 /// [s].
 fn stuck_before_a_red_of(red: f64) -> u64 {
