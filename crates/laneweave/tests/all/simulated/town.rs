@@ -7,7 +7,7 @@ use crate::simulated::drive::{STEP, Spans, drive_in};
 use crate::simulated::outcomes;
 
 const IN_TOWN: Spans =
-    Spans { warm_up: 120.0, recorded: 480.0, afterwards: 30.0, kept: [10.0, 240.0], every: 5.0 };
+    Spans { warm_up: 120.0, recorded: 1440.0, afterwards: 30.0, kept: [10.0, 1200.0], every: 5.0 };
 
 #[test]
 fn in_a_town_a_recorded_driver_knows_what_the_simulated_one_knew() {
