@@ -53,14 +53,19 @@ const KINDS: [Kind; 2] = [
 
 impl Kind {
     /// Traffic from the second and third arm to the first passes the entry of the fourth, where a queue never ends.
+    /// From there equal parts go to the three other arms: lanes are chosen by exits, so one destination fills one lane,
+    /// or lets all meet the same stream further on.
     fn traffic(&self, circulating: f64) -> Traffic {
-        let [first, second, ..] = self.exits;
+        let [first, second, third, _] = self.exits;
         let [_, from_second, from_third, entry] = self.entrances;
         let passes = |from| ([from, first], 0.5 * circulating.max(1.0));
-        let enters = ([entry, second], FULL * self.lanes as f64);
+        let enters = |to| ([entry, to], FULL * self.lanes as f64 / 3.0);
+        let entering = [first, second, third].map(enters);
         Traffic {
             road: Road::Roundabout(self.lanes),
-            demand: Arriving::Between(vec![passes(from_third), passes(from_second), enters]),
+            demand: Arriving::Between(
+                [from_third, from_second].map(passes).into_iter().chain(entering).collect(),
+            ),
             trucks: 0.0,
             times: TIMES,
             ..Traffic::on_motorway(1, 0.0)
@@ -166,7 +171,7 @@ fn words(rows: &[Row], effort: &Effort) -> String {
     format!(
         "# The capacity of roundabouts, beside the Highway Capacity Manual\n\n\
          Cars with the usual drivers on a roundabout of four arms and one or two lanes. At one entry a queue never ends; vehicles from the \
-         two arms before it circulate past it. {} seeds.\n\n{}",
+         two arms before it circulate past it, and those that enter go to the three other arms in equal parts. {} seeds.\n\n{}",
         effort.seeds,
         table_of(rows)
     )
