@@ -37,11 +37,7 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
         let opens = chain.previous.is_empty() && (leads_nowhere || !is_entrance[index]);
         let closes = chain.following.is_empty() && (leads_nowhere || !is_exit[index]);
         let left_by = chain.last_window().map_or(f64::NEG_INFINITY, |start| start + LEAST_WINDOW);
-        // A lane that is nowhere wide enough for long vehicles is theirs where it is that of cars: no other may lead to
-        // where they go.
-        let has_room = |body: &f64| widths.iter().any(|it| it.1 >= *body);
-        let bodies = [BODIES[0], if has_room(&BODIES[1]) { BODIES[1] } else { BODIES[0] }];
-        chain.open = bodies.map(|body| open(&widths, body, [opens, closes], left_by));
+        chain.open = BODIES.map(|body| open(&widths, body, [opens, closes], left_by));
         let [from, until] = chain.open[1];
         let through = widths.iter().filter(|(station, _)| (from..=until).contains(station));
         chain.is_tight_for_long = through.map(|it| it.1).fold(f64::INFINITY, f64::min) < BODIES[1];

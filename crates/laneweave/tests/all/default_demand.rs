@@ -22,15 +22,31 @@ fn the_default_demand_fills_no_part_and_lets_other_entrances_grow_on() {
         // At each entrance it is rounded to a whole number.
         let rounded = usual.origins.len() as f64;
         assert!(usual.origins.iter().all(|it| it.1.fract() == 0.0 && it.1 >= 1.0), "{seed}");
-        assert!(total <= 0.7 * queues_from_veh_h + rounded, "{seed}: {total} of {queues_from_veh_h}");
-        assert!(total <= 0.65 * veh_h + rounded, "{seed}: {total} of {veh_h}");
-        assert!(total >= (0.7 * queues_from_veh_h).min(0.65 * veh_h) - rounded, "{seed}: {total} of {veh_h}");
+        assert!(total <= 0.8 * queues_from_veh_h + rounded, "{seed}: {total} of {queues_from_veh_h}");
+        assert!(total <= 0.63 * veh_h + rounded, "{seed}: {total} of {veh_h}");
+        assert!(total >= (0.8 * queues_from_veh_h).min(0.63 * veh_h) - rounded, "{seed}: {total} of {veh_h}");
         // The same demand for each lane fills the first part sooner.
         let even = prepared(seed, Some(1000.0)).capacity.queues_from_veh_h;
         assert!(queues_from_veh_h > 0.9 * even, "{seed}: {queues_from_veh_h} of {even}");
         grown += usize::from(queues_from_veh_h > 1.1 * even);
     }
     assert!(grown >= 3, "{grown} of 12");
+}
+
+#[test]
+fn what_entrances_bear_does_not_depend_on_how_numbers_are_rounded() {
+    // On 195 and 201 two parts are equally full, and different entrances pass them.
+    for seed in [195, 201, 501] {
+        let of = |factor: f64| {
+            let mut scenario = Scenario::of_map("random.osm".into());
+            scenario.demand.profile = vec![[0.0, factor]];
+            let map = random(seed).drawing.build().expect("the drawing is sound");
+            prepare_on(map, &scenario, &Origin::default()).expect("the scenario is sound").demand_veh_h
+        };
+        for factor in [1.3, 1.7, 0.9] {
+            assert!((of(factor) - factor * of(1.0)).abs() < 1e-6, "{seed}: {} at {factor}", of(factor));
+        }
+    }
 }
 
 #[test]

@@ -39,3 +39,10 @@ fn steps_of_half_a_second_change_delays_and_rates_by_at_most_15_per_cent() {
         assert!((coarse_rate - rate).abs() <= 0.15 * rate, "{name}: {rate} and {coarse_rate}");
     }
 }
+
+#[test]
+fn who_waits_at_a_stop_is_looked_at_when_others_are_given_their_turn_however_long_the_steps() {
+    // Half a step more before each driver would add 40 % to the delays.
+    let [[delay, _], [coarse, _]] = [0.1, 0.5].map(|it| traffic("all_way_stop.osm", it));
+    assert!((coarse / delay - 1.0).abs() < 0.25, "{delay} and {coarse} s");
+}

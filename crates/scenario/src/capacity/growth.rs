@@ -6,25 +6,47 @@ use laneweave_sim::{Assignment, InnerPlace, Thinning};
 use laneweave_study::units::SECONDS_PER_HOUR;
 
 use super::lights::Equivalents;
-use super::movement::{Movement, movements};
-use super::{Bottleneck, Capacity, Load, Queues, Roads, conflict, lanes, lights, tight, town};
+use super::movement::{self, Movement};
+use super::tight::{self, Tight};
+use super::{Bottleneck, Capacity, Load, Queues, Roads, conflict, lanes, lights, town};
+
+/// Loads that differ by no more than this share are equal.
+const ROUNDED: f64 = 1e-9;
 
 /// The map, the routes of the demand, and its drivers.
 pub(crate) struct Growth<'a> {
     /// Its roads, with the programs of the lights.
-    pub(crate) network: &'a Network,
+    network: &'a Network,
     /// The assignment of these demands of the origins [veh/h], if not all pass everywhere.
-    pub(crate) assign: &'a dyn Fn(&[f64], &Thinning) -> Assignment,
-    pub(crate) inner_places: &'a [InnerPlace],
-    pub(crate) queues: &'a Queues,
+    assign: &'a dyn Fn(&[f64], &Thinning) -> Assignment,
+    inner_places: &'a [InnerPlace],
+    queues: &'a Queues,
+    movements: Vec<Movement>,
+    tight: Vec<Tight>,
 }
 
-impl Growth<'_> {
+impl<'a> Growth<'a> {
+    /// That of the drivers of `queues` on `network`, with the assignments that `assign` makes.
+    pub(crate) fn new(
+        network: &'a Network,
+        assign: &'a dyn Fn(&[f64], &Thinning) -> Assignment,
+        inner_places: &'a [InnerPlace],
+        queues: &'a Queues,
+    ) -> Growth<'a> {
+        let is_lit = network.lit_sides();
+        let movements = movement::movements(network, queues, &is_lit);
+        let tight = tight::places(network, queues, &is_lit);
+        Growth { network, assign, inner_places, queues, movements, tight }
+    }
+
     /// The estimated capacity for demands in proportion to `rates`.
     pub(crate) fn capacity(&self, rates: &[f64]) -> Capacity {
         /// The demand, as a multiple of that which fills the first part, at which the most get through: some parts
         /// take in more then, and others are not yet blocked (ours).
         const GROWTHS: [f64; 2] = [1.4, 2.0];
+        /// Of what more would get through if queues blocked nobody else, this share does (ours; chosen on the random
+        /// maps 1 to 300).
+        const PAST_QUEUES: f64 = 0.7;
         let assignment = (self.assign)(rates, &Thinning::default());
         let Some(full) = self.fullest(&assignment) else {
             return Capacity { veh_h: 0.0, queues_from_veh_h: 0.0, bottleneck: None };
@@ -34,7 +56,9 @@ impl Growth<'_> {
             Bottleneck::Town => from,
             _ => GROWTHS.map(|it| self.arriving(rates, it / full.share)).into_iter().fold(0.0, f64::max),
         };
-        Capacity { veh_h: most, queues_from_veh_h: from.min(most), bottleneck: Some(full.of) }
+        let queues_from_veh_h = from.min(most);
+        let veh_h = queues_from_veh_h + PAST_QUEUES * (most - queues_from_veh_h);
+        Capacity { veh_h, queues_from_veh_h, bottleneck: Some(full.of) }
     }
 
     /// The flow to all destinations if `growth` times these `rates` come, and before each part that is overfull some
@@ -61,7 +85,7 @@ impl Growth<'_> {
     /// The part that is full first when the flows of this `assignment` grow, if anybody drives.
     fn fullest(&self, assignment: &Assignment) -> Option<Load> {
         // Of parts with equal loads the first counts, however their numbers are rounded.
-        let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + 1e-9);
+        let is_fuller = |it: &Load, than: &Load| it.share > than.share * (1.0 + ROUNDED);
         self.with_loads(assignment, |roads, movements, loads| {
             let fullest = loads.reduce(|fullest, it| if is_fuller(&it, &fullest) { it } else { fullest });
             let part = fullest.filter(|it| it.share > 0.0)?;
@@ -78,11 +102,11 @@ impl Growth<'_> {
         let Growth { network, inner_places, queues, .. } = *self;
         let equivalents: &Equivalents = &lights::equivalents(network, assignment, queues);
         let roads = Roads { network, assignment, queues, equivalents };
-        let movements = movements(&roads);
+        let movements = movement::with_flows(network, &self.movements, assignment);
         let junctions = conflict::loads(&roads, &movements);
         let inner_places = town::inner_place_loads(&roads, inner_places);
         let lanes = lanes::loads(&roads).into_iter();
-        let mut loads = lanes.chain(junctions).chain(tight::loads(&roads)).chain(inner_places);
+        let mut loads = lanes.chain(junctions).chain(tight::loads(&roads, &self.tight)).chain(inner_places);
         of(&roads, &movements, &mut loads)
     }
 }
@@ -93,9 +117,8 @@ impl Growth<'_> {
 impl Growth<'_> {
     /// So often are the others let grow on: each time takes some assignments.
     const ROUNDS: u32 = 6;
-    /// The largest growth of one round, and the growth below which it ends.
+    /// The largest growth of one round.
     const MOST: f64 = 8.0;
-    const LEAST: f64 = 1.02;
 
     /// The demand of each origin [veh/h], from demands in proportion to `rates` on; `None` if nothing is ever full.
     pub(crate) fn fill(&self, rates: &[f64]) -> Option<Vec<f64>> {
@@ -103,20 +126,19 @@ impl Growth<'_> {
         let mut rates: Vec<f64> = rates.iter().map(|it| it / full.share).collect();
         let mut grows = vec![true; rates.len()];
         for _ in 0..Growth::ROUNDS {
+            let had_grown = grows.clone();
             for (origin, grows) in grows.iter_mut().enumerate() {
                 *grows &= !self.loads(origin, &rates, &full);
             }
-            if !grows.contains(&true) {
+            if !grows.contains(&true) || grows == had_grown {
                 break;
             }
             let grown = |by: f64| -> Vec<f64> {
                 rates.iter().zip(&grows).map(|(it, grows)| if *grows { it * by } else { *it }).collect()
             };
             let Some((by, next)) = self.growth(grown) else { break };
+            // Where another part is as full, nobody grows, but others stay as they are from then on.
             (rates, full) = (grown(by), next);
-            if by < Growth::LEAST {
-                break;
-            }
         }
         Some(rates)
     }
@@ -126,7 +148,8 @@ impl Growth<'_> {
     fn growth(&self, grown: impl Fn(f64) -> Vec<f64>) -> Option<(f64, Load)> {
         const HALVINGS: u32 = 5;
         let overfull = |by: f64| {
-            self.fullest(&(self.assign)(&grown(by), &Thinning::default())).filter(|it| it.share > 1.0)
+            self.fullest(&(self.assign)(&grown(by), &Thinning::default()))
+                .filter(|it| it.share > 1.0 + ROUNDED)
         };
         let (mut low, mut high) = (1.0, 2.0);
         let mut full = loop {

@@ -3,7 +3,7 @@
 use laneweave_network::{ChainIndex, Light, Position, Side, Sign};
 use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
-use super::{Bottleneck, Load, Roads, weaving};
+use super::{Bottleneck, Load, Roads, curvature, weaving};
 
 /// A light at a place of a lane also belongs to the lanes beside it, if it is no further away [m].
 const BESIDE: f64 = 20.0;
@@ -104,7 +104,7 @@ impl Roads<'_> {
         let mut near = stops.filter(|it| (it.station - station).abs() < BESIDE);
         let light = near.find_map(|it| if let Sign::Light(light) = it.sign { Some(light) } else { None });
         let Some(light) = light else {
-            return (self.queues.stream(limit, self.curvature(chain, [station; 2])), None);
+            return (self.queues.stream(limit, curvature(self.network, chain, [station; 2])), None);
         };
         let Light { id, program, .. } = &network.junctions.lights[light.at()];
         (self.queues.through(program, limit), Some(*id))

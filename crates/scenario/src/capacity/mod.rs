@@ -119,19 +119,19 @@ impl Roads<'_> {
         self.network.lanelet_at(Position::new(chain, station)).0.id
     }
 
-    /// The largest curvature of a part of a chain [1/m], rounded so that there are few; 0 on a straight one.
-    fn curvature(&self, chain: ChainIndex, [from, to]: [f64; 2]) -> f64 {
-        /// Speeds at 1 m/s² are rounded to this [m/s].
-        const STEP: f64 = 0.5;
-        let bends = self.network.chain(chain).bends.iter().filter(|it| it.end > from && it.start <= to);
-        let tightest = bends.map(|it| it.curvature).reduce(f64::max);
-        let rounded = |it: f64| ((1.0 / it.sqrt() / STEP).round() * STEP).max(STEP);
-        tightest.map_or(0.0, |it| rounded(it).powi(-2))
-    }
-
     fn chains(&self) -> impl Iterator<Item = ChainIndex> + use<> {
         (0..self.network.chains.len() as u32).map(ChainIndex)
     }
+}
+
+/// The largest curvature of a part of a chain [1/m], rounded so that there are few; 0 on a straight one.
+fn curvature(network: &Network, chain: ChainIndex, [from, to]: [f64; 2]) -> f64 {
+    /// Speeds at 1 m/s² are rounded to this [m/s].
+    const STEP: f64 = 0.5;
+    let bends = network.chain(chain).bends.iter().filter(|it| it.end > from && it.start <= to);
+    let tightest = bends.map(|it| it.curvature).reduce(f64::max);
+    let rounded = |it: f64| ((1.0 / it.sqrt() / STEP).round() * STEP).max(STEP);
+    tightest.map_or(0.0, |it| rounded(it).powi(-2))
 }
 
 impl Capacity {
@@ -164,7 +164,7 @@ impl Capacity {
             Assignment::of_rates(network, navigator, demand, rates, thinning)
         };
         let inner_places = &inner_places(demand);
-        Growth { network, assign, inner_places, queues }.capacity(&demand.mean_rates(network, during))
+        Growth::new(network, assign, inner_places, queues).capacity(&demand.mean_rates(network, during))
     }
 }
 

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use laneweave_models::yielding::{MARGIN, time_to_cover};
-use laneweave_network::{ChainIndex, Precedence, Touch, ZoneKind};
-use laneweave_sim::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
+use laneweave_network::{ChainIndex, Network, Precedence, Touch, ZoneKind};
+use laneweave_sim::{Assignment, STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 
-use super::Roads;
+use super::{Queues, curvature};
 
 /// A movement through a junction.
+#[derive(Clone)]
 pub(super) struct Movement {
     pub(super) chain: ChainIndex,
     /// Begin of its first zone, and end of its last one [m].
@@ -58,22 +59,33 @@ impl Movement {
     }
 }
 
-/// All movements through zones without lights, those with the largest shares of time first.
-pub(super) fn movements(roads: &Roads) -> Vec<Movement> {
-    let mut all = in_order_of_chains(roads);
-    all.iter_mut().for_each(|it| take_time(roads, it));
-    all.sort_by(|a, b| b.share().total_cmp(&a.share()));
-    meet(roads, &mut all);
+/// All movements through zones without lights, in the order of their chains; yet without flow. `is_lit` says for each
+/// zone and each of its sides whether its drivers pass a light.
+pub(super) fn movements(network: &Network, queues: &Queues, is_lit: &[[bool; 2]]) -> Vec<Movement> {
+    let mut all = in_order_of_chains(network, is_lit);
+    all.iter_mut().for_each(|it| take_time(network, queues, it));
     all
 }
 
-fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
+/// These `movements` with the flows of an `assignment`, those with the largest shares of time first.
+pub(super) fn with_flows(
+    network: &Network,
+    movements: &[Movement],
+    assignment: &Assignment,
+) -> Vec<Movement> {
+    let mut all = movements.to_vec();
+    all.iter_mut().for_each(|it| it.flow = assignment.flow(it.chain, it.start.max(0.0))[1]);
+    all.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    meet(network, &mut all);
+    all
+}
+
+fn in_order_of_chains(network: &Network, is_lit: &[[bool; 2]]) -> Vec<Movement> {
     /// Zones further apart belong to different junctions [m].
     const APART: f64 = 25.0;
-    let junctions = &roads.network.junctions;
-    let is_lit = roads.network.lit_sides();
+    let junctions = &network.junctions;
     let mut all: Vec<Movement> = Vec::new();
-    for chain in roads.chains() {
+    for chain in (0..network.chains.len() as u32).map(ChainIndex) {
         for crossing in &junctions.on(chain).crossings {
             let (zone, side) = (crossing.zone.at(), usize::from(crossing.side));
             // Lights separate vehicles whose paths meet.
@@ -97,7 +109,7 @@ fn in_order_of_chains(roads: &Roads) -> Vec<Movement> {
                     zones: vec![(zone, side)],
                     rivals: Vec::new(),
                     joins: Vec::new(),
-                    flow: roads.assignment.flow(chain, reach.start.max(0.0))[1],
+                    flow: 0.0,
                     before: 0.0,
                     waits_for: Vec::new(),
                     gap: 0.0,
@@ -118,17 +130,17 @@ const NOTICES_AFTER: f64 = 0.05;
 
 /// Sets the times of `movement`: with priority, vehicles keep their headway; otherwise they start from rest, and keep
 /// others away until their rears are clear.
-fn take_time(roads: &Roads, movement: &mut Movement) {
-    let (limit, curvature) = limits(roads, movement);
-    let headway = 1.0 / roads.queues.stream(limit, curvature);
-    let zones = &roads.network.junctions.zones;
+fn take_time(network: &Network, queues: &Queues, movement: &mut Movement) {
+    let (limit, curvature) = limits(network, movement);
+    let headway = 1.0 / queues.stream(limit, curvature);
+    let zones = &network.junctions.zones;
     let goes_first = |(zone, side): &(usize, usize)| zones[*zone].precedence == Precedence::Side(*side as u8);
     if movement.zones.iter().all(goes_first) {
         (movement.follow_up, movement.time) = (headway, headway);
         return;
     }
-    let distance = movement.end - movement.start + stands_before(roads, movement);
-    let mixture = roads.queues.mixture(limit, curvature);
+    let distance = movement.end - movement.start + stands_before(network, movement);
+    let mixture = queues.mixture(limit, curvature);
     let covers = mixture.mean_of(|length, desired| time_to_cover(distance + length, 0.0, desired));
     movement.time = MARGIN + covers + NOTICES_AFTER;
     movement.critical_gap = mixture.critical_gap();
@@ -139,18 +151,18 @@ fn take_time(roads: &Roads, movement: &mut Movement) {
 }
 
 /// The limit [m/s] at the begin of a movement, and its largest curvature [1/m].
-fn limits(roads: &Roads, movement: &Movement) -> (f64, f64) {
+fn limits(network: &Network, movement: &Movement) -> (f64, f64) {
     let Movement { chain, start, end, .. } = *movement;
-    (roads.network.chain(chain).limit(start), roads.curvature(chain, [start, end]))
+    (network.chain(chain).limit(start), curvature(network, chain, [start, end]))
 }
 
 /// Distance before its first zone at which `movement` starts from rest: at the zone, or at a line before it [m].
-fn stands_before(roads: &Roads, movement: &Movement) -> f64 {
+fn stands_before(network: &Network, movement: &Movement) -> f64 {
     /// A line further away does not belong to the junction [m].
     const NEAR: f64 = 30.0;
-    let [before] = roads.network.chain(movement.chain).previous[..] else { return STANDS_BEFORE_A_ZONE };
-    let length = roads.network.chain(before).length;
-    let line = roads.network.junctions.on(before).stops.last();
+    let [before] = network.chain(movement.chain).previous[..] else { return STANDS_BEFORE_A_ZONE };
+    let length = network.chain(before).length;
+    let line = network.junctions.on(before).stops.last();
     let distance = line.map(|it| length - it.station + movement.start).filter(|it| *it < NEAR);
     distance.map_or(STANDS_BEFORE_A_ZONE, |it| it + STANDS_BEFORE_A_LINE)
 }
@@ -160,8 +172,8 @@ const IN_TURNS: f64 = 0.5;
 
 /// Sets the conflicts and the priorities of the movements. Of a movement with which one takes turns, every other
 /// vehicle has priority.
-fn meet(roads: &Roads, all: &mut [Movement]) {
-    let zones = &roads.network.junctions.zones;
+fn meet(network: &Network, all: &mut [Movement]) {
+    let zones = &network.junctions.zones;
     let mut on_side = vec![[usize::MAX; 2]; zones.len()];
     for (movement, number) in all.iter().zip(0..) {
         movement.zones.iter().for_each(|(zone, side)| on_side[*zone][*side] = number);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use laneweave_models::Style;
 use laneweave_network::{Phase, Program, RoadLaw};
-use laneweave_sim::Fleet;
+use laneweave_sim::{Fleet, PerimeterControl};
 
 use super::side_by_side;
 use super::stream::Mixture;
@@ -21,12 +21,14 @@ pub(crate) struct Queues {
     greens: Known,
     /// Flows of lanes side by side [veh/s], by their number and limit [m/s].
     beside: Known,
+    /// Length that vehicles take up while they drive a metre [m s], by the limit [m/s].
+    taken: Known,
 }
 
 impl Queues {
     pub(crate) fn new(drivers: &[(Style, f64)], fleet: Fleet, law: RoadLaw) -> Queues {
-        let [streams, greens, beside] = [(); 3].map(|()| Known::default());
-        Queues { drivers: drivers.to_vec(), fleet, law, streams, greens, beside }
+        let [streams, greens, beside, taken] = [(); 4].map(|()| Known::default());
+        Queues { drivers: drivers.to_vec(), fleet, law, streams, greens, beside, taken }
     }
 
     /// The vehicles and drivers under a limit [m/s], in a bend of this curvature [1/m]; 0: on a straight lane.
@@ -57,6 +59,13 @@ impl Queues {
             |green: f64| self.greens.get([green, limit], || self.mixture(limit, 0.0).pass_at_green(green));
         let [less, more] = [before, before + BETWEEN].map(pass);
         less + (more - less) * (green - before) / BETWEEN
+    }
+
+    /// Mean length that a vehicle takes up in a town under a limit [m/s], times the time in which it drives one metre
+    /// [m s].
+    pub(super) fn taken_on_a_metre(&self, limit: f64) -> f64 {
+        let taken = |length: f64, desired: f64| PerimeterControl::taken_by(length) / desired;
+        self.taken.get([limit, 0.0], || self.mixture(limit, 0.0).mean_of(taken))
     }
 
     /// The share of the capacity of so many `lanes` side by side under `limit` [m/s] that lane changes leave.

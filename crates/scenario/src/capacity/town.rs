@@ -89,8 +89,7 @@ fn driving_on(roads: &Roads, chain: ChainIndex) -> f64 {
     let here = roads.network.chain(chain);
     let parts = roads.assignment.on(chain).iter();
     let metres: f64 = parts.map(|it| it.flow * (it.to.min(here.length) - it.from)).sum();
-    let mixture = roads.queues.mixture(here.limit(0.0), 0.0);
-    mixture.mean_of(|length, desired| PerimeterControl::taken_by(length) * metres / desired)
+    metres * roads.queues.taken_on_a_metre(here.limit(0.0))
 }
 
 /// The loads of places inside the map: a vehicle that starts from one makes space for the next.

@@ -4,8 +4,8 @@ use super::{Demand, Prepared};
 use crate::capacity::Capacity;
 
 /// Default demand as a share of the estimated capacity, and at most as a share of that from which on queues grow. Ours.
-pub(super) const USUAL_SHARE: f64 = 0.65;
-pub(super) const FULLEST: f64 = 0.7;
+pub(super) const USUAL_SHARE: f64 = 0.63;
+pub(super) const FULLEST: f64 = 0.8;
 
 /// The basis of the demand of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -66,9 +66,9 @@ impl Settling<'_> {
         };
         let rates = world.demand().mean_rates(network, self.measured);
         let network = &programmed(&rates);
-        let borne = Growth { network, assign, inner_places, queues: self.queues }.fill(&rates)?;
+        let borne = Growth::new(network, assign, inner_places, self.queues).fill(&rates)?;
         let network = &programmed(&borne);
-        let capacity = Growth { network, assign, inner_places, queues: self.queues }.capacity(&borne);
+        let capacity = Growth::new(network, assign, inner_places, self.queues).capacity(&borne);
         let demand = (USUAL_SHARE * capacity.veh_h).min(FULLEST * capacity.queues_from_veh_h);
         let share = demand / borne.iter().sum::<f64>();
         Some((borne.into_iter().map(|it| (share * it).round().max(1.0)).collect(), capacity))

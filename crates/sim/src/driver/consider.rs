@@ -262,17 +262,19 @@ fn keep_in_mind(concern: Concern, driver: &DriverState, plan: &mut Plan) {
 
 /// The note that is stored at every turn. The driver considers lanes once in `period` steps.
 fn note(scene: &Scene, moment: Moment, me: &Me, period: u32) -> Note {
-    let Me { spot, motion, driver, .. } = *me;
+    let Me { spot, motion, driver, lane_change, .. } = *me;
     let due = next_turn(motion.id, moment.clock.step + 1, period);
     let at = Position::new(spot.chain, motion.x);
     let stands = motion.speed < STANDSTILL;
     // A consideration between two turns adds nothing to the time, which is counted from turn to turn.
     let is_turn = next_turn(motion.id, moment.clock.step, period) == moment.clock.step;
     let since_last = if is_turn { (f64::from(period) * moment.clock.dt) as f32 } else { 0.0 };
+    let outlook = scene.outlook(driver);
+    let leaving = outlook.leaving_speed(lane_change.previous_lanes.last(), motion.x);
     Note {
         index: spot.index as u32,
         due,
-        limit_desired: scene.outlook(driver).until_turn(at, motion.speed, due, moment.clock),
+        limit_desired: outlook.until_turn(at, motion.speed, due, moment.clock).min(leaving),
         standing: if stands { driver.standing + since_last } else { 0.0 },
     }
 }

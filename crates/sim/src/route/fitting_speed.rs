@@ -42,12 +42,15 @@ impl Outlook<'_> {
         if is_clear || !style.manner.looks_ahead() { desired } else { self.slowed(at, way, reach, desired) }
     }
 
-    /// The speed [m/s] that the driver desires who has just left `chain`, until it looks again, because half of its
-    /// vehicle is in a bend there; infinite if it is not.
-    pub(crate) fn leaving_speed(&self, chain: ChainIndex) -> f32 {
-        let chain = self.network.chain(chain);
-        let middle = chain.length - 0.5 * self.class.body().length;
-        let bends = chain.bends.iter().rev().take_while(|it| it.end > middle);
+    /// The speed [m/s] that the driver desires whose front is `x` [m] beyond the end of the `last` chain, because half
+    /// of its vehicle is in a bend there; infinite if it is not.
+    #[inline]
+    pub(crate) fn leaving_speed(&self, last: Option<ChainIndex>, x: f64) -> f32 {
+        let half = 0.5 * self.class.body().length;
+        let Some(last) = last.filter(|_| x < half) else { return f32::INFINITY };
+        let last = self.network.chain(last);
+        let middle = last.length + x - half;
+        let bends = last.bends.iter().rev().take_while(|it| it.end > middle);
         bends.map(|it| self.bend_speed(it) as f32).fold(f32::INFINITY, f32::min)
     }
 

@@ -88,7 +88,7 @@ impl Transfer<'_> {
         let Entry { motion, driver, .. } = &mut entry;
         let outlook = self.roads.outlook(driver);
         let ahead = outlook.until_turn(onto, motion.speed, driver.due, self.traffic.clock());
-        driver.limit_desired = ahead.min(outlook.leaving_speed(from));
+        driver.limit_desired = ahead.min(outlook.leaving_speed(Some(from), onto.x));
         self.tell_counterpart(&entry, Some(onto));
         self.traffic.insert(onto.chain, entry);
     }

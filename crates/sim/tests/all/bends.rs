@@ -13,6 +13,27 @@ const LIMIT: f64 = 70.0 / 3.6;
 
 /// A lane with a bend of `radius` [m], and with `lower` [m/s] as the limit there.
 fn road(radius: f64, lower: f64) -> Network {
+    Network::new(lanelets(radius, lower), DrivingSide::Right).expect("the lanelets fit")
+}
+
+/// The same lane with a bend, but at the end of the bend a straight lane joins it: there a chain ends.
+fn joined(radius: f64) -> Network {
+    let mut lanelets = lanelets(radius, LIMIT);
+    let (start, direction) = (lanelets[2].centre.points()[0], lanelets[2].centre.heading(0.0));
+    let (sin, cos) = direction.sin_cos();
+    let of = |aside: f64| {
+        let at = |along: f64| {
+            Point::new(start.x + along * cos - aside * sin, start.y + along * sin + aside * cos, 0.0)
+        };
+        Polyline::new([at(-100.0), at(0.0)]).expect("a line")
+    };
+    let mut joins = Lanelet::alone(4, [of(1.75), of(-1.75), of(0.0)], LIMIT);
+    joins.following = vec![LaneletIndex(2)];
+    lanelets.push(joins);
+    Network::new(lanelets, DrivingSide::Right).expect("the lanelets fit")
+}
+
+fn lanelets(radius: f64, lower: f64) -> Vec<Lanelet> {
     let mut at = Point::new(0.0, 0.0, 0.0);
     let mut points = vec![at];
     for metre in 1..=LENGTH as u32 {
@@ -33,7 +54,7 @@ fn road(radius: f64, lower: f64) -> Network {
         lanelet.following = (id < 3).then_some(LaneletIndex(id)).into_iter().collect();
         lanelet
     });
-    Network::new(lanelets.collect(), DrivingSide::Right).expect("the lanelets fit")
+    lanelets.collect()
 }
 
 /// What a driver alone on a road did.
@@ -44,6 +65,8 @@ struct Drive {
     /// Highest speed within the slow place [m/s], and at the end of the road.
     within: f64,
     at_the_end: f64,
+    /// Highest speed on a second chain while half of the vehicle is still on the first one [m/s].
+    leaving: f64,
 }
 
 fn drive(network: Network, style: Style, class: Class) -> Drive {
@@ -69,6 +92,9 @@ fn drive(network: Network, style: Style, class: Class) -> Drive {
             if (SLOW[0] + 3.0..SLOW[1] - 3.0).contains(&x) {
                 drive.within = drive.within.max(vehicle.speed());
             }
+            if vehicle.spot.chain != ChainIndex(0) && x < 0.5 * length {
+                drive.leaving = drive.leaving.max(vehicle.speed());
+            }
             drive.at_the_end = vehicle.speed();
         }
     }
@@ -90,6 +116,19 @@ fn drivers_come_to_a_bend_at_a_speed_that_fits_without_hard_braking() {
             let lateral = it.within * it.within / radius;
             assert!((0.8 * largest..1.15 * largest).contains(&lateral), "{name} {radius}: {lateral} m/s²");
             assert!(it.braking <= 2.2, "{name} {radius}: brakes with {} m/s²", it.braking);
+            assert!(it.at_the_end > 0.95 * LIMIT, "{name}: {}", it.at_the_end);
+        }
+    }
+}
+
+#[test]
+fn a_vehicle_half_of_which_is_in_a_bend_drives_no_faster_where_another_lane_joins() {
+    for style in styles(2.5) {
+        for (class, largest) in [(Class::Car, 2.5), (Class::Bus, 0.7 * 2.5)] {
+            let (radius, name) = (20.0, style.name.clone());
+            let it = drive(joined(radius), style.clone(), class);
+            let lateral = it.leaving * it.leaving / radius;
+            assert!((0.5 * largest..1.15 * largest).contains(&lateral), "{name} {class:?}: {lateral} m/s²");
             assert!(it.at_the_end > 0.95 * LIMIT, "{name}: {}", it.at_the_end);
         }
     }

@@ -17,7 +17,7 @@ fn without_a_demand_a_share_of_the_estimated_capacity_comes_and_the_screen_says_
         let [demand, capacity, queues_from] =
             ["demand_veh_h", "estimated_capacity_veh_h", "queues_from_veh_h"].map(|it| number(&summary, it));
         // Whole vehicles per hour at each entrance.
-        let usual = (0.65 * capacity).min(0.7 * queues_from);
+        let usual = (0.63 * capacity).min(0.8 * queues_from);
         assert!((demand / usual - 1.0).abs() < 0.02, "{map}: {demand} of {capacity}");
         let share = 100.0 * demand / capacity;
         let bottleneck = summary["bottleneck"].as_str().unwrap();

@@ -14,7 +14,7 @@ fn a_map_that_was_made_can_be_driven() {
     let run = folder.laneweave(line);
     assert_eq!((run.code(), run.errors().as_str()), (0, ""));
     let summary = folder.summary("own.osm --duration 60");
-    assert_eq!(summary["demand_veh_h"], 2343.0);
+    assert_eq!(summary["demand_veh_h"], 2228.0);
     assert!(summary["on_road"].as_u64().unwrap() > 10);
 }
 

@@ -190,7 +190,7 @@ fn values_of_a_scenario_that_make_no_sense() {
         ),
         (
             "[demand.headways]\nlaw = \"cowan-m3\"\nminimum_s = 6\n",
-            "s.toml:4:1: the shortest headway is 6 s, where the mean is 4.60 s: it must be shorter; choose less, or reduce the \
+            "s.toml:4:1: the shortest headway is 6 s, where the mean is 4.78 s: it must be shorter; choose less, or reduce the \
              demand at the entrance 1",
         ),
         (

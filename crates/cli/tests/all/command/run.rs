@@ -68,7 +68,7 @@ fn the_summary_has_all_its_fields_and_adds_up() {
     assert!(of("entered") > 0.0 && of("lane_changes") > 0.0);
     assert_eq!(of("incidents"), of("collisions") + of("overlaps"));
     assert_eq!((of("incidents"), &summary["first_incident"]), (0.0, &Value::Null));
-    assert_eq!(of("demand_veh_h"), 3131.0);
+    assert_eq!(of("demand_veh_h"), 3012.0);
     assert_eq!(of("duration_s"), 120.0);
     let mean_speed = of("veh_km") * 1000.0 / (of("updates") * 0.1);
     assert!((of("mean_speed_mps") / mean_speed - 1.0).abs() < 1e-12);
