@@ -49,6 +49,7 @@ impl Courtesy {
         (short_of - (then - desired).abs()) / scale
     }
 
+    #[inline]
     fn driver_share(&self, driver: &Driver, now: Option<Ahead>, then: Option<Ahead>) -> f64 {
         let expected = |ahead| speed_after(driver.follow.acceleration(driver.pace, ahead), driver.pace);
         self.share(expected(now), expected(then), driver.pace.desired)

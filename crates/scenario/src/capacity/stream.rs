@@ -191,7 +191,12 @@ impl<'a> Queue<'a> {
     fn drive(&mut self, dt: f64) {
         // The rear bumper of the vehicle before, and the speed that the next driver sees.
         let mut leader: Option<(f64, Ahead)> = None;
+        // Who stands behind one that stands does not start, nor do those behind.
+        let mut stands = false;
         for Queued { kind, x, speed, acceleration: chosen } in &mut self.vehicles {
+            if stands && *speed == 0.0 {
+                break;
+            }
             let ahead = leader.map(|(rear, it)| Ahead { gap: rear - *x, ..it });
             let (gap, rear) = (0.0, *x - kind.class.body().length);
             leader = Some((rear, Ahead { gap, speed: *speed, acceleration: *chosen }));
@@ -200,6 +205,7 @@ impl<'a> Queue<'a> {
             *chosen = acceleration;
             let after = (*speed + acceleration * dt).max(0.0);
             *x += 0.5 * (*speed + after) * dt;
+            stands = *speed == 0.0 && after == 0.0;
             *speed = after;
         }
     }

@@ -47,10 +47,14 @@ impl Outlook<'_> {
     #[inline]
     pub(crate) fn leaving_speed(&self, last: Option<ChainIndex>, x: f64) -> f32 {
         let half = 0.5 * self.class.body().length;
-        let Some(last) = last.filter(|_| x < half) else { return f32::INFINITY };
-        let last = self.network.chain(last);
-        let middle = last.length + x - half;
-        let bends = last.bends.iter().rev().take_while(|it| it.end > middle);
+        last.filter(|_| x < half).map_or(f32::INFINITY, |it| self.speed_before_the_end(it, half - x))
+    }
+
+    /// The speed [m/s] that bends on the last `way` [m] of a chain allow.
+    #[inline(never)]
+    fn speed_before_the_end(&self, chain: ChainIndex, way: f64) -> f32 {
+        let chain = self.network.chain(chain);
+        let bends = chain.bends.iter().rev().take_while(|it| it.end > chain.length - way);
         bends.map(|it| self.bend_speed(it) as f32).fold(f32::INFINITY, f32::min)
     }
 
