@@ -32,8 +32,8 @@ pub(crate) struct RunArguments {
     #[arg(value_name = "SCENARIO.toml|MAP", value_hint = ValueHint::AnyPath)]
     input: PathBuf,
     /// Vehicles per hour in total, split over the entrances by their number of lanes for cars (on a map without
-    /// entrance or exit evenly over its lanelets); replaces all demands of the scenario [default for a map: 63 % of its
-    /// estimated capacity].
+    /// entrance or exit evenly over its lanelets); replaces all demands of the scenario [default for a map: at most
+    /// 63 % of its estimated capacity].
     #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].

@@ -1,7 +1,8 @@
 //! How many drivers of the built-in styles enter a roundabout.
 
-use laneweave_scenario::scenario::{OdRow, Origin, Scenario, prepare};
-use laneweave_sim::Event;
+use laneweave::generate::{Roundabout, roundabout};
+use laneweave_scenario::scenario::{OdRow, Origin, Scenario, prepare, prepare_on};
+use laneweave_sim::{Event, World};
 use laneweave_test_data::{map, size};
 
 /// Vehicles per hour that leave at the exits with these ids, after ten minutes.
@@ -46,5 +47,43 @@ fn as_many_enter_a_roundabout_as_two_editions_of_the_highway_capacity_manual_say
         ];
         let [passed, entered] = leaving(&scenario, [7, 15]);
         assert!((least(passed)..=most(passed)).contains(&entered), "{entered} beside {passed}");
+    }
+}
+
+/// A roundabout of two lanes with this demand [veh/h].
+fn two_lanes(arms: usize, radius_m: Option<f64>, [demand, trucks]: [f64; 2], seed: u64) -> World {
+    let wanted = Roundabout { arms, lanes: 2, radius_m, ..Roundabout::default() };
+    let map = roundabout(&wanted).expect("arms fit around it").build().expect("the drawing is sound");
+    let mut scenario = Scenario::of_map("roundabout.osm".into());
+    scenario.demand.vehicles_per_hour = Some(demand);
+    (scenario.demand.trucks, scenario.run.seed) = (trucks, seed);
+    prepare_on(map, &scenario, &Origin::default()).expect("the scenario is sound").world
+}
+
+#[test]
+fn a_roundabout_with_too_much_traffic_is_never_locked() {
+    // Trucks who wait to turn back at the next arms had the right of way over all who were on the way out.
+    for seed in 1..=size().pick(2, 8) {
+        let mut world = two_lanes(5, None, [3200.0, 0.2], seed);
+        (0..12_000).for_each(|_| world.step());
+        let before = world.counts().left;
+        (0..6000).for_each(|_| world.step());
+        let left = world.counts().left - before;
+        assert!(left > 150, "{seed}: {left} in ten minutes");
+        assert_eq!((world.counters().collisions, world.counters().overlaps), (0, 0));
+    }
+}
+
+#[test]
+fn a_lane_change_ends_although_the_vehicle_stands() {
+    // Each of them was across but for some micrometres, and waited to be across.
+    for (arms, radius_m) in [(3, 31.6), (4, 30.0), (5, 28.0)] {
+        for seed in size().pick(9140..9142, 9136..9144) {
+            let mut world = two_lanes(arms, Some(radius_m), [1942.0, 0.09], seed);
+            (0..9000).for_each(|_| world.step());
+            let left = world.counts().left;
+            assert!(left > 350, "{arms} arms, {seed}: {left} in a quarter of an hour");
+            assert_eq!(world.counters().stuck, 0);
+        }
     }
 }

@@ -11,7 +11,7 @@ use super::tight::{self, Tight};
 use super::{Bottleneck, Capacity, Load, Queues, Roads, conflict, lanes, lights, town};
 
 /// Loads that differ by no more than this share are equal.
-const ROUNDED: f64 = 1e-9;
+const ROUNDED: f64 = 1e-6;
 
 /// The map, the routes of the demand, and its drivers.
 pub(crate) struct Growth<'a> {
@@ -128,7 +128,7 @@ impl Growth<'_> {
         for _ in 0..Growth::ROUNDS {
             let had_grown = grows.clone();
             for (origin, grows) in grows.iter_mut().enumerate() {
-                *grows &= !self.loads(origin, &rates, &full);
+                *grows = *grows && !self.loads(origin, &rates, &full);
             }
             if !grows.contains(&true) || grows == had_grown {
                 break;
@@ -136,16 +136,18 @@ impl Growth<'_> {
             let grown = |by: f64| -> Vec<f64> {
                 rates.iter().zip(&grows).map(|(it, grows)| if *grows { it * by } else { *it }).collect()
             };
-            let Some((by, next)) = self.growth(grown) else { break };
-            // Where another part is as full, nobody grows, but others stay as they are from then on.
-            (rates, full) = (grown(by), next);
+            let (by, next) = self.growth(grown);
+            rates = grown(by);
+            // Where another part is as full, nobody has grown, but others stay as they are from then on.
+            let Some(next) = next else { break };
+            full = next;
         }
         Some(rates)
     }
 
-    /// The largest growth at which no part is overfull, of demands that are `grown` by it, and what is full beyond it;
-    /// `None` if nothing is.
-    fn growth(&self, grown: impl Fn(f64) -> Vec<f64>) -> Option<(f64, Load)> {
+    /// About the largest growth at which no part is overfull, of demands that are `grown` by it, and what is full
+    /// beyond it; `None` if nothing is.
+    fn growth(&self, grown: impl Fn(f64) -> Vec<f64>) -> (f64, Option<Load>) {
         const HALVINGS: u32 = 5;
         let overfull = |by: f64| {
             self.fullest(&(self.assign)(&grown(by), &Thinning::default()))
@@ -155,7 +157,7 @@ impl Growth<'_> {
         let mut full = loop {
             match overfull(high) {
                 Some(full) => break full,
-                None if high >= Growth::MOST => return None,
+                None if high >= Growth::MOST => return (high, None),
                 None => (low, high) = (high, 2.0 * high),
             }
         };
@@ -166,7 +168,7 @@ impl Growth<'_> {
                 None => low = middle,
             }
         }
-        Some((low, full))
+        (low, Some(full))
     }
 
     /// Whether drivers from an origin pass the part that is `full`, or get nowhere.

@@ -3,8 +3,8 @@
 //! The demand grows, by the same factor everywhere, until the first part of the map is full: a lane, a light, a
 //! junction, a place inside the map, or a town as a whole (the reserve capacity of a network: Wong and Yang, 1997).
 //! From then on queues grow there, but more may still get through elsewhere: the capacity of the map is the largest
-//! flow that does. The load of each part comes from the demand along the usual routes; its capacity follows from the
-//! models of its drivers.
+//! flow that does, as far as it can be estimated. The load of each part comes from the demand along the usual routes;
+//! its capacity follows from the models of its drivers.
 
 mod conflict;
 mod delay;
@@ -35,7 +35,7 @@ use lights::Equivalents;
 /// The estimated capacity of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
-    /// The largest flow that gets through, which more demand no longer raises [veh/h].
+    /// The estimated largest flow that gets through, which more demand no longer raises [veh/h].
     pub veh_h: f64,
     /// The demand from which on queues grow, because the first part is full [veh/h].
     pub queues_from_veh_h: f64,
@@ -141,8 +141,8 @@ impl Capacity {
     /// The capacity of a lane is the flow from a long queue. That of lanes side by side comes from a simulation of
     /// such a road. That of a light is the part of a standing queue that passes at green; turns across oncoming traffic
     /// take gaps in it. Where paths meet without a light, drivers take turns and gaps. A town has the capacity of its
-    /// perimeter control. Effects that are not considered can only lower the capacity: missing gaps for lane changes,
-    /// queues that block each other.
+    /// perimeter control. Missing gaps for lane changes are not considered, and of queues that block others it is only
+    /// known that they do.
     pub fn new(
         network: &Network,
         navigator: &Navigator,

@@ -157,6 +157,8 @@ const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
 #[derive(Default)]
 struct Queue<'a> {
     vehicles: Vec<Queued<'a>>,
+    /// So many have started.
+    started: usize,
 }
 
 struct Queued<'a> {
@@ -191,12 +193,9 @@ impl<'a> Queue<'a> {
     fn drive(&mut self, dt: f64) {
         // The rear bumper of the vehicle before, and the speed that the next driver sees.
         let mut leader: Option<(f64, Ahead)> = None;
-        // Who stands behind one that stands does not start, nor do those behind.
-        let mut stands = false;
-        for Queued { kind, x, speed, acceleration: chosen } in &mut self.vehicles {
-            if stands && *speed == 0.0 {
-                break;
-            }
+        // Who has not started yet does not before the one ahead has.
+        let may_move = self.started + 1;
+        for Queued { kind, x, speed, acceleration: chosen } in self.vehicles.iter_mut().take(may_move) {
             let ahead = leader.map(|(rear, it)| Ahead { gap: rear - *x, ..it });
             let (gap, rear) = (0.0, *x - kind.class.body().length);
             leader = Some((rear, Ahead { gap, speed: *speed, acceleration: *chosen }));
@@ -205,9 +204,10 @@ impl<'a> Queue<'a> {
             *chosen = acceleration;
             let after = (*speed + acceleration * dt).max(0.0);
             *x += 0.5 * (*speed + after) * dt;
-            stands = *speed == 0.0 && after == 0.0;
             *speed = after;
         }
+        let starts = self.vehicles.get(self.started).is_some_and(|it| it.speed > 0.0);
+        self.started += usize::from(starts);
     }
 
     fn beyond_the_line(&self) -> usize {

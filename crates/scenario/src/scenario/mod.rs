@@ -147,8 +147,8 @@ pub enum DrivingSide {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Demand {
-    /// Vehicles per hour in total, split over the entrances by their number of lanes for cars; default: 63 % of the
-    /// estimated capacity, of each entrance what it bears.
+    /// Vehicles per hour in total, split over the entrances by their number of lanes for cars; default: at most
+    /// 63 % of the estimated capacity, of each entrance what it bears.
     pub vehicles_per_hour: Option<f64>,
     /// Share of trucks, 0 to 1.
     pub trucks: f64,

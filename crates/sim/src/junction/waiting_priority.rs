@@ -31,4 +31,6 @@ pub(crate) struct WaitingTurn {
     pub(crate) priority: WaitingPriority,
     /// Time until its vehicle can be there: vehicles with reservations delay it, and it has to drive there [s].
     pub(crate) begins: f64,
+    /// It waits to enter a roundabout.
+    pub(crate) enters: bool,
 }

@@ -151,9 +151,13 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     let other_side = 1 - hold.side;
     let matters = |is_long: bool| zone.touch.is_of([asking.priority.is_long, is_long]);
     let turn = scene.reservations.priority(hold.zone, other_side).filter(|it| matters(it.priority.is_long));
+    // A roundabout clears itself: who waits on it, or on the way out, keeps out whoever waits to enter.
+    let enters = || scene.reservations.roundabouts.is_entry(applicant.from.chain);
+    let clears_it = |it: &WaitingTurn| it.enters && !asking.priority.is_patient && !enters();
     let waits_for = |it: &WaitingTurn| {
         goes_first(zone.precedence, other_side, it.priority, asking)
             && !is_out_before(scene, applicant, hold, it)
+            && !clears_it(it)
     };
     if turn.is_some_and(|it| waits_for(&it)) {
         return false;

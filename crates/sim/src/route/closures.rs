@@ -7,12 +7,10 @@ use std::borrow::Cow;
 use laneweave_network::{ChainIndex, Class, LaneletIndex, Network, Position, Side};
 
 use crate::route::navigate::Navigator;
+use crate::route::open_lanes::{OpenLanes, back, beside, lanes_left_by, next_lane, overlap};
 use crate::route::standing::{Does, Standing};
 use crate::route::waypoint::Waypoint;
 use crate::state::goal::Destination;
-
-/// For each side the number of lanes to the next one that is open beside a closed stretch, and the place there.
-type OpenLanes = [Option<(u32, Position)>; 2];
 
 /// The lanelets that users closed, and what stands in lanes.
 #[derive(Clone, Debug, Default)]
@@ -102,6 +100,7 @@ impl Closures {
             closures.passable.push(open != [None; 2]);
             if let Some(lanes) = open.iter().flatten().map(|it| it.0).min() {
                 let (front, known_from) = (it.reach[1], Standing::SEEN);
+                let way_out = lanes_left_by(network, &it, way_out, &open, &closures.standing);
                 let reach = [Standing::kept(way_out, lanes), front];
                 let leaves_until = way_out - Standing::LEAST_ROOM;
                 let stretch = Stretch { reach, leaves_until, known_from, does: it.does, open };
@@ -137,7 +136,7 @@ impl Closures {
     ) -> OpenLanes {
         let (chain, [rear, front]) = (it.chain, [way_out, it.reach[1]].map(|x| x.max(0.0)));
         let is_free = |at: &Position| {
-            let reach = [at.x - Standing::ROOM_BEFORE, at.x + front - rear + Standing::ROOM_BEYOND];
+            let reach = beside(*at, front - rear);
             let stands_there = |it: &Standing| it.chain == at.chain && overlap(it.reach, reach);
             let is_closed = self.on(at.chain).iter().any(|it| overlap(it.reach, reach));
             !is_closed && !standing.iter().any(stands_there)
@@ -360,38 +359,4 @@ impl Navigator {
         };
         open.iter().flatten().map(by).min().unwrap_or(1)
     }
-}
-
-/// The number of lanes from a place to the next one on a `side` that is open, and the place there. It is a lane for
-/// cars, or for all that may use the own one.
-fn next_lane(
-    network: &Network,
-    at: Position,
-    side: Side,
-    is_open: impl Fn(&Position) -> bool,
-) -> Option<(u32, Position)> {
-    let beside = |at: &Position| {
-        let beside = network.chain(at.chain).beside(side, at.x)?;
-        Some(Position::new(beside.chain, beside.across(at.x)))
-    };
-    let classes = |at: &Position| network.chain(at.chain).classes;
-    let takes_cars = |it: &Position| classes(it).has(Class::Car) || classes(it).include(classes(&at));
-    let mut lanes = std::iter::successors(beside(&at), beside).zip(1..);
-    lanes.find(|(at, _)| takes_cars(at) && is_open(at)).map(|(at, count)| (count, at))
-}
-
-/// Whether two stretches have a part in common.
-fn overlap([from, until]: [f64; 2], [other_from, other_until]: [f64; 2]) -> bool {
-    from < other_until && other_from < until
-}
-
-/// The place `distance` [m] before `at`, on its chain or on the only one before it.
-fn back(network: &Network, at: Position, distance: f64) -> Option<Position> {
-    let x = at.x - distance;
-    if x >= 0.0 {
-        return Some(Position::new(at.chain, x));
-    }
-    let [before] = network.chain(at.chain).previous[..] else { return None };
-    let x = network.chain(before).length + x;
-    (x >= 0.0).then_some(Position::new(before, x))
 }

@@ -19,6 +19,7 @@ pub(crate) mod guidance;
 pub(crate) mod links;
 pub(crate) mod navigate;
 pub(crate) mod onward;
+mod open_lanes;
 pub(crate) mod place;
 mod reachable;
 pub(crate) mod renew_routes;

@@ -27,8 +27,11 @@ pub(crate) enum Does {
 impl Standing {
     /// Road that drivers keep behind it, to steer out of its lane [m] (ours).
     pub(super) const ROOM: f64 = 12.0;
-    /// A lane beside it is open if nothing stands there so far before its rear and beyond its front [m] (ours).
+    /// The longest road that drivers keep before it, where one lane beside it is open [m].
     pub(crate) const ROOM_BEFORE: f64 = Standing::ROOM + Standing::ROOM_FOR_A_LANE;
+    /// A lane beside it is open if nothing stands there so far before its rear and beyond its front [m] (ours). Who has
+    /// passed something in that lane can still steer to it, then.
+    pub(super) const ROOM_BESIDE: f64 = 30.0;
     pub(super) const ROOM_BEYOND: f64 = 25.0;
     /// Road without a junction on which drivers can pass what crawls [m] (ours).
     pub(super) const PASSING: f64 = 200.0;

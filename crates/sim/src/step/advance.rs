@@ -141,6 +141,8 @@ fn take_note(lane: &mut Lane, chain: ChainIndex, clock: Clock, plan: &mut Plan, 
 
 /// A change is complete at this share of its time: the steps add up to 1 except for rounding.
 const DONE: f32 = 0.9999;
+/// At this share its vehicle is across but for a millimetre: it is complete if the vehicle stands (ours).
+const ACROSS: f32 = 0.97;
 /// A vehicle that goes back is out of the other lane at this share of the time: its front bumper is a tenth of the way
 /// across at most.
 const OUT: f32 = 0.1;
@@ -182,7 +184,7 @@ fn go_across(
                     outbox.milestones.push(milestone(motion, lane_change, chain, Reached::Crossing));
                 }
             }
-            if lane_change.progress < DONE {
+            if lane_change.progress < if step > 0.0 { DONE } else { ACROSS } {
                 return false;
             }
         }

@@ -103,6 +103,17 @@ fn drivers_wind_their_way_between_vehicles_that_stand_one_after_the_other() {
 }
 
 #[test]
+fn nobody_waits_for_ever_where_something_stands_before_in_the_lane_between() {
+    for (number, apart) in (0..8).map(|it| (it, 15.0 + 9.0 * it as f64)) {
+        for lane in [0, 2] {
+            let broken = [Broken { lane, ..CAR }, Broken { lane: 1, x: CAR.x - apart, ..CAR }];
+            let seconds = lost("motorway_3_lanes.osm", 900.0, 20 + number, &broken);
+            assert!(seconds < 12.0, "lane {lane}, {apart} m: {seconds} s");
+        }
+    }
+}
+
+#[test]
 fn where_no_lane_is_free_the_queue_waits_and_goes_on_when_one_is_free_again() {
     let mut world = world("motorway_2_lanes.osm", 500.0, 5, 1);
     let [first, _] = [0, 1].map(|lane| put(&mut world, Broken { lane, ..CAR }));
