@@ -5,7 +5,7 @@
 //! d = d_r + θ_v (d_s + d_b)
 //!
 //! * d_r, the route: the urgency of the own lane if the side takes a change off the route, minus that of the side if
-//!   it adds one.
+//!   it adds one; where both lanes take as many, the difference of their urgencies (ours).
 //! * d_s, the speed: a_gain (v_ant − v_ant,here)/v_gain, a_gain = (a − max(a_now, 0))/a: a driver who accelerates is
 //!   content. To the slow side, only a loss counts while the own lane is faster than v_cong.
 //! * d_b, the bias: d_free to the slow side where no speed is lost there.
@@ -85,7 +85,7 @@ impl Lmrs {
             // A driver who stays in the lanes that lead on looks for one from the beginning.
             RouteKeeping::Lanes if saved > 0.0 => urgency.max(self.synchronize),
             RouteKeeping::Lanes if saved < 0.0 => -1.0,
-            RouteKeeping::Lanes => 0.0,
+            RouteKeeping::Lanes => urgency,
         }
     }
 

@@ -203,7 +203,7 @@ impl Mobil {
             (IncentiveName::Courtesy, Row { earning: others, weight: free * self.politeness }),
             (IncentiveName::Urgency, urgency),
         ]);
-        let helps_the_route = RouteKeeping::changes_saved(situation) > 0.0;
+        let helps_the_route = RouteKeeping::is_helped(situation);
         let [_, new_follower] = accelerations.new_follower;
         let is_safe = new_follower >= -self.safe_deceleration;
         let gain = if is_safe || helps_the_route {

@@ -24,14 +24,22 @@ impl RouteKeeping {
         f64::from(situation.here.route.changes) - f64::from(situation.there.route.changes)
     }
 
+    /// Whether the side helps the route: it takes a change off it, or it leaves more time for as many.
+    pub(crate) fn is_helped(situation: &Situation) -> bool {
+        let saved = RouteKeeping::changes_saved(situation);
+        saved > 0.0 || saved == 0.0 && RouteKeeping::urgency_for(situation) > 0.0
+    }
+
     /// Urgency, −1…1, with which the route asks for the side: that of the own lane if the side takes a change off the
-    /// route, that of the side, negative, if it adds one. LMRS has the same form (Schakel, Knoop, van Arem 2012).
+    /// route, that of the side, negative, if it adds one. LMRS has the same form (Schakel, Knoop, van Arem 2012). Of
+    /// two lanes with as many changes, one may end much sooner: then the difference counts (ours).
     pub(crate) fn urgency_for(situation: &Situation) -> f64 {
         let of = |lane: &LaneView| urgency(lane.route.changes, lane.route.remaining, situation.me.pace.speed);
+        let [here, there] = [&situation.here, &situation.there].map(of);
         match RouteKeeping::changes_saved(situation) {
-            saved if saved > 0.0 => of(&situation.here),
-            saved if saved < 0.0 => -of(&situation.there),
-            _ => 0.0,
+            saved if saved > 0.0 => here,
+            saved if saved < 0.0 => -there,
+            _ => here - there,
         }
     }
 
@@ -40,7 +48,9 @@ impl RouteKeeping {
     pub(crate) fn rows(self, situation: &Situation, decisive: f64, weight: f64) -> [Row; 2] {
         match self {
             RouteKeeping::Lanes => {
-                [Row { earning: RouteKeeping::changes_saved(situation), weight: decisive }, Row::default()]
+                let saved = RouteKeeping::changes_saved(situation);
+                let earning = if saved == 0.0 { RouteKeeping::urgency_for(situation) } else { saved };
+                [Row { earning, weight: decisive }, Row::default()]
             }
             RouteKeeping::Urgency => {
                 [Row::default(), Row { earning: RouteKeeping::urgency_for(situation), weight }]

@@ -159,6 +159,21 @@ fn a_change_that_would_make_the_new_follower_brake_too_hard_is_not_desired() {
 }
 
 #[test]
+fn of_two_lanes_that_end_with_as_many_changes_left_the_one_that_ends_later_is_better() {
+    let ends = |remaining: f64| RouteView { changes: 1, remaining, ..ON_ROUTE };
+    for route in [RouteKeeping::Urgency, RouteKeeping::Lanes] {
+        let model = Mobil { route, ..Mobil::default() };
+        let mut situation = empty_road(driver(&IDM, 0.0, 20.0));
+        situation.here.ahead = Some(Ahead::steady(28.0, 0.0));
+        (situation.here.route, situation.there.route) = (ends(16.0), ends(243.0));
+        let Appraisal { gain, theta, .. } = model.appraise(&situation);
+        assert!(gain > theta, "{route:?}: {gain} {theta}");
+        (situation.here.route, situation.there.route) = (ends(243.0), ends(16.0));
+        assert!(model.appraise(&situation).gain < 0.0, "{route:?}");
+    }
+}
+
+#[test]
 fn who_keeps_to_the_lanes_of_the_route_never_leaves_them_and_always_seeks_them() {
     let lanes = Mobil { route: RouteKeeping::Lanes, ..Mobil::default() };
     let wrong = RouteView { changes: 1, remaining: 2000.0, ..ON_ROUTE };
