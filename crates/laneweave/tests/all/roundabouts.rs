@@ -76,14 +76,12 @@ fn a_roundabout_with_too_much_traffic_is_never_locked() {
 
 #[test]
 fn a_lane_change_ends_although_the_vehicle_stands() {
-    // Each of them was across but for some micrometres, and waited to be across.
-    for (arms, radius_m) in [(3, 31.6), (4, 30.0), (5, 28.0)] {
-        for seed in size().pick(9140..9142, 9136..9144) {
-            let mut world = two_lanes(arms, Some(radius_m), [1942.0, 0.09], seed);
-            (0..9000).for_each(|_| world.step());
-            let left = world.counts().left;
-            assert!(left > 350, "{arms} arms, {seed}: {left} in a quarter of an hour");
-            assert_eq!(world.counters().stuck, 0);
-        }
+    // In the first of these runs a vehicle was across but for some micrometres, and waited to be across.
+    for (arms, radius_m, seed) in [(3, 31.0, 16), (3, 31.6, 1), (4, 30.0, 1), (5, 28.0, 1)] {
+        let mut world = two_lanes(arms, Some(radius_m), [1942.0, 0.09], seed);
+        (0..9000).for_each(|_| world.step());
+        let left = world.counts().left;
+        assert!(left > 350, "{arms} arms, {seed}: {left} in a quarter of an hour");
+        assert_eq!(world.counters().stuck, 0);
     }
 }
