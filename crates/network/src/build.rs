@@ -201,17 +201,6 @@ fn link(chains: &mut [Chain], lanelets: &[Lanelet], place: &[(ChainIndex, usize)
             }
         }
     }
-    for index in 0..chains.len() {
-        let previous = chains[index].previous.iter();
-        let mut siblings: Vec<ChainIndex> =
-            previous.flat_map(|back| &chains[back.at()].following).copied().collect();
-        siblings.sort_unstable();
-        siblings.dedup();
-        siblings.retain(|it| it.at() != index);
-        let clearance =
-            siblings.iter().map(|it| clearance(&chains[index], &chains[it.at()])).fold(0.0, f64::max);
-        chains[index].fork_clearance = clearance;
-    }
 }
 
 fn stretches(
@@ -233,20 +222,6 @@ fn stretches(
         join(&mut stretches, Beside { start, end, chain: there, other_start, scale });
     }
     stretches
-}
-
-/// Station of `chain` up to which it is closer to `sibling` than two wide vehicles side by side [m].
-fn clearance(chain: &Chain, sibling: &Chain) -> f64 {
-    const APART: f64 = 2.7;
-    const STEP: f64 = 2.0;
-    /// Chains that have not parted by then were drawn twice. The limit bounds the computing time; ours.
-    const LONGEST_FORK: f64 = 500.0;
-    let end = chain.length.min(LONGEST_FORK);
-    let mut station = 0.0;
-    while station < end && chain.centre.at(station).distance(&sibling.centre.at(station)) < APART {
-        station += STEP;
-    }
-    station.min(end)
 }
 
 #[cfg(test)]

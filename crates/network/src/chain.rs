@@ -43,8 +43,7 @@ impl Position {
 pub struct Chain {
     /// Length [m].
     pub length: f64,
-    /// Distance from its start up to which its vehicles still touch those on chains that fork off with it [m], at
-    /// most 500 m.
+    /// Station up to which its vehicles still touch those on other branches of a fork behind [m].
     pub fork_clearance: f64,
     /// Chains that continue this one.
     pub following: Vec<ChainIndex>,
@@ -82,6 +81,25 @@ pub struct Chain {
     pub is_tight_for_long: bool,
     /// Bends in order.
     pub bends: Vec<Bend>,
+    /// The other branches of the forks behind, from which it has not parted at its start.
+    pub branches: Vec<ForkBranch>,
+}
+
+/// A chain on another branch of a fork. Vehicles with their fronts on it are in each other's way with those on the
+/// chain that this belongs to, until their rears have passed the place where the branches part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForkBranch {
+    /// The chain.
+    pub chain: ChainIndex,
+    /// Where it starts, as a station of the chain that this belongs to: both are as far from the fork [m].
+    pub start: f64,
+    /// Stations on it that rears pass when they are out of the way, for two cars, for a car and a long vehicle, and for
+    /// two long ones; negative where this is on a chain before it [m].
+    pub until: [f64; 3],
+    /// The chains over which vehicles come to it from the fork, the nearest first; the last one is the one that forks.
+    pub over: Vec<ChainIndex>,
+    /// The chains over which vehicles come from the fork to the chain that this belongs to, likewise.
+    pub own_over: Vec<ChainIndex>,
 }
 
 /// A speed limit from `start` on.
@@ -150,6 +168,14 @@ impl Beside {
     /// The station here that lies beside `station` there [m].
     pub fn back(&self, station: f64) -> f64 {
         self.start + (station - self.other_start) / self.scale
+    }
+}
+
+impl ForkBranch {
+    /// Station on it that a rear passes when the two vehicles, which are long or not, are out of each other's way [m].
+    #[inline]
+    pub fn until(&self, [one_is_long, other_is_long]: [bool; 2]) -> f64 {
+        self.until[usize::from(one_is_long) + usize::from(other_is_long)]
     }
 }
 
@@ -280,6 +306,7 @@ impl Chain {
             open: Chain::WIDE,
             is_tight_for_long: false,
             fork_clearance: 0.0,
+            branches: Vec::new(),
         }
     }
 

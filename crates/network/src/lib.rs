@@ -27,7 +27,7 @@ mod width;
 
 pub use alongside::Alongside;
 pub use build::NetworkError;
-pub use chain::{Bend, Beside, Chain, ChainIndex, Limit, Position};
+pub use chain::{Bend, Beside, Chain, ChainIndex, ForkBranch, Limit, Position};
 pub use class::{Body, Class, Classes};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{Point, Polyline, Pose, turn};

@@ -87,6 +87,10 @@ impl Network {
         for chain in &mut self.chains {
             chain.following.iter_mut().chain(&mut chain.previous).for_each(turn);
             chain.left.iter_mut().chain(&mut chain.right).for_each(|it| turn(&mut it.chain));
+            for branch in &mut chain.branches {
+                turn(&mut branch.chain);
+                branch.over.iter_mut().chain(&mut branch.own_over).for_each(turn);
+            }
         }
         self.entrances.iter_mut().chain(&mut self.exits).flat_map(|it| &mut it.chains).for_each(turn);
         self.lane_drops.iter_mut().for_each(turn);

@@ -57,30 +57,6 @@ fn a_ring_is_one_chain_that_continues_itself() {
 }
 
 #[test]
-fn chains_that_fork_without_parting_touch_for_500_m() {
-    // Each of 32 lanelets is followed by all 32 others, which lie on top of each other.
-    let mut all: Vec<Lanelet> = (0..32).map(|i| lanelet(i, 0.0, 100.0, 0.0)).collect();
-    all.extend((32..64).map(|i| lanelet(i, 100.0, 20_000.0, 0.0)));
-    for lanelet in &mut all[..32] {
-        lanelet.following = (32..64).map(LaneletIndex).collect();
-    }
-    let network = Network::new(all, DrivingSide::Right).unwrap();
-    let clearances: Vec<f64> = network.chains.iter().map(|it| it.fork_clearance).collect();
-    assert_eq!(clearances, [[0.0; 32], [500.0; 32]].concat());
-}
-
-#[test]
-fn chains_of_a_fork_touch_until_wide_vehicles_have_room_beside_each_other() {
-    let mut all = vec![lanelet(1, 0.0, 100.0, 0.0), lanelet(2, 100.0, 300.0, 0.0)];
-    let branch = Polyline::new([Point::new(100.0, 2.0, 0.0), Point::new(300.0, 22.0, 0.0)]).unwrap();
-    all.push(Lanelet { id: 3, centre: branch, ..all[1].clone() });
-    all[0].following = vec![LaneletIndex(1), LaneletIndex(2)];
-    let network = Network::new(all, DrivingSide::Right).unwrap();
-    // Along both they part by 2.7 m in 27 m; a sample lies at every second metre.
-    assert_eq!(network.chains.iter().map(|it| it.fork_clearance).collect::<Vec<_>>(), [0.0, 28.0, 28.0]);
-}
-
-#[test]
 fn reversing_the_storage_keeps_the_roads() {
     let network = lane_drop().with_chains_reversed();
     assert_eq!(network.chains[0].length, 200.0);

@@ -1,5 +1,6 @@
 //! How chains near each other are related: one after the other, forking off together, leading into one.
 
+use super::fork::Fork;
 use crate::chain::{Chain, ChainIndex};
 use crate::lanelet::Side;
 use crate::network::Network;
@@ -17,8 +18,6 @@ const ONE_DIRECTION: f64 = 0.5;
 /// Why two chains are close to each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meeting {
-    /// They fork off together, and have not parted yet.
-    Forks,
     /// They lead into one, from these stations on.
     Merges([f64; 2]),
     /// They come from one place at the edge of the map, or lead to one.
@@ -74,15 +73,25 @@ impl<'a> Kinship<'a> {
         (is_partial(a) || is_partial(b)) && (leads(a, at_a, b, at_b) || leads(b, at_b, a, at_a))
     }
 
+    /// The forks behind two chains from which on these have not parted yet before the stretches that begin at `starts`.
+    pub(super) fn forks(&self, [a, b]: [ChainIndex; 2], starts: [f64; 2]) -> Vec<Fork> {
+        if starts[0].min(starts[1]) >= SAME {
+            return Vec::new();
+        }
+        common(&self.ancestors[a.at()], &self.ancestors[b.at()])
+            .filter(|(at, _)| self.network.chain(*at).following.len() > 1)
+            .filter(|(_, [to_a, to_b])| (to_a + starts[0] - to_b - starts[1]).abs() < SAME)
+            .filter_map(|(at, distances)| Fork::between(self.network, at, [a, b], distances))
+            .collect()
+    }
+
+    /// Whether all who come to two chains come from the fork: no other lane joins in between.
+    pub(super) fn come_only_from(&self, fork: &Fork, pair: [ChainIndex; 2]) -> bool {
+        pair.iter().all(|it| self.comes_only_from(fork.at, *it))
+    }
+
     /// How two chains meet on the stretches from `starts` to `ends`.
     pub(super) fn meeting(&self, [a, b]: [ChainIndex; 2], starts: [f64; 2], ends: [f64; 2]) -> Meeting {
-        let forks = common(&self.ancestors[a.at()], &self.ancestors[b.at()]).any(|(kin, [to_a, to_b])| {
-            let is_one_place = (to_a + starts[0] - to_b - starts[1]).abs() < SAME;
-            is_one_place && [a, b].iter().all(|it| self.comes_only_from(kin, *it))
-        });
-        if forks && starts[0].min(starts[1]) < SAME {
-            return Meeting::Forks;
-        }
         if self.fork_at_the_edge([a, b], starts) || self.meet_at_the_edge([a, b], ends) {
             return Meeting::Shares;
         }

@@ -1,11 +1,13 @@
 //! From rules to junctions: where chains conflict, which has priority, where drivers stop, and what that leaves for
 //! lane changes and entrances.
 //!
-//! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zones.rs`), who has
+//! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zones.rs`), how far the
+//! branches of forks are in each other's way (`fork.rs`), who has
 //! priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), and where
 //! they turn (`turning.rs`). The programs of lights are in `signals`. Who holds which zone is the simulator's.
 
 mod contact;
+mod fork;
 mod kinship;
 mod nearby;
 mod places;
@@ -19,6 +21,7 @@ use crate::junction::{Crossing, Junctions, OnChain, Reach, Regulations, ZoneInde
 use crate::lanelet::Side;
 use crate::network::Network;
 use crate::signals;
+use fork::Parting;
 use kinship::Kinship;
 use ring::Ring;
 
@@ -30,7 +33,9 @@ const ROOM_TO_ENTER: f64 = 15.0;
 impl Network {
     /// The same network with its junctions, at which `regulations` hold.
     pub fn regulated(mut self, regulations: &Regulations) -> Network {
-        self.junctions = junctions(&self, regulations);
+        let (junctions, partings) = junctions(&self, regulations);
+        self.junctions = junctions;
+        fork::note_branches(&mut self, &partings);
         // Lanes that share a conflict area with others at the edge of the map get a conflict zone: vehicles enter in
         // turns.
         let is_at_the_edge = |crossing: Crossing| {
@@ -96,11 +101,11 @@ impl Network {
     }
 }
 
-/// The junctions of `network` under `regulations`. Lights without a program get one.
-fn junctions(network: &Network, regulations: &Regulations) -> Junctions {
+/// The junctions of `network` under `regulations`, and where branches of forks part. Lights without a program get one.
+fn junctions(network: &Network, regulations: &Regulations) -> (Junctions, Vec<Parting>) {
     let kinship = Kinship::of(network);
     let contacts = contact::contacts(network);
-    let mut zones = zones::zones(&kinship, &contacts.of_pairs);
+    let (mut zones, partings) = zones::zones(&kinship, &contacts.of_pairs);
     let rings = ring::rings(network);
     let in_ring: Vec<bool> = rings.iter().map(|it| *it != Ring::No).collect();
     precedence::settle(network, &kinship, regulations, &in_ring, &mut zones);
@@ -126,5 +131,5 @@ fn junctions(network: &Network, regulations: &Regulations) -> Junctions {
     junctions.comparisons += comparisons;
     junctions.follow(&made);
     junctions.made = made;
-    junctions
+    (junctions, partings)
 }

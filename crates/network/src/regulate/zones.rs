@@ -1,6 +1,7 @@
-//! The conflict zones of chains: contacts of two chains, put together.
+//! The conflict zones of chains, and the places where they part at forks: contacts of two chains, put together.
 
 use super::contact::{Contact, LONGEST_VEHICLE, SAMPLE};
+use super::fork::Parting;
 use super::kinship::{Kinship, Meeting};
 use crate::chain::ChainIndex;
 use crate::junction::{Precedence, Reach, Touch, Zone, ZoneKind};
@@ -8,13 +9,32 @@ use crate::junction::{Precedence, Reach, Touch, Zone, ZoneKind};
 /// Contacts further apart along a chain than this belong to different zones [m].
 const APART: f64 = 6.0;
 
-/// All zones of chains with these contacts, ordered by their chains.
-pub(super) fn zones(kinship: &Kinship, contacts: &[([ChainIndex; 2], Vec<Contact>)]) -> Vec<Zone> {
-    contacts.iter().flat_map(|(pair, contacts)| zones_of(kinship, *pair, contacts)).collect()
+/// The zones of chains with these contacts, and where chains part at forks, ordered by their chains.
+pub(super) fn zones(
+    kinship: &Kinship,
+    contacts: &[([ChainIndex; 2], Vec<Contact>)],
+) -> (Vec<Zone>, Vec<Parting>) {
+    let (mut zones, mut partings) = (Vec::new(), Vec::new());
+    for (pair, contacts) in contacts {
+        for group in groups(kinship, *pair, contacts) {
+            let bounds = [0, 1].map(|side| bounds(&group, side));
+            let starts = bounds.map(|it| it[0]);
+            let forks = kinship.forks(*pair, starts);
+            let is_fork = forks.iter().any(|it| kinship.come_only_from(it, *pair));
+            partings.extend(forks.into_iter().map(|fork| Parting::of(*pair, fork, &group)));
+            if !is_fork {
+                zones.extend(zone_of(kinship, *pair, bounds, &group));
+            }
+        }
+    }
+    (zones, partings)
 }
 
-/// The zones of two chains with these contacts, which are in the order of the first chain's stations.
-fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> Vec<Zone> {
+/// A contact, and which vehicles touch there.
+pub(super) type Touching<'a> = (&'a Contact, Touch);
+
+/// The contacts of two chains, which are in the order of the first chain's stations, by the zones to which they belong.
+fn groups<'a>(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &'a [Contact]) -> Vec<Vec<Touching<'a>>> {
     let touching = contacts.iter().filter_map(|it| Some((it, it.touch?)));
     // Where one of two lanes begins or ends, the change between them has to stay possible: cars would not touch
     // there.
@@ -23,17 +43,17 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> V
         !is_changed && !kinship.is_one_behind_the_other(pair, it.stations)
     });
     let (beyond, usual): (Vec<_>, Vec<_>) = apart.partition(|(it, _)| it.is_beyond);
-    let mut groups: Vec<Vec<(&Contact, Touch)>> = Vec::new();
+    let mut groups: Vec<Vec<Touching>> = Vec::new();
     for contact in usual.into_iter().chain(beyond) {
         let fits =
-            |group: &&mut Vec<(&Contact, Touch)>| {
+            |group: &&mut Vec<Touching>| {
                 group.iter().rev().take(32).any(|it| {
                     (0..2).all(|side| (it.0.stations[side] - contact.0.stations[side]).abs() <= APART)
                 })
             };
         // In a crossing that is longer because of long vehicles beyond it, cars would wait without a reason: that
         // part is a zone of its own.
-        let joins = |group: &&mut Vec<(&Contact, Touch)>| {
+        let joins = |group: &&mut Vec<Touching>| {
             fits(group) && !(contact.0.is_beyond && group.iter().any(|it| it.1 == Touch::Any))
         };
         match groups.iter_mut().find(joins) {
@@ -41,20 +61,26 @@ fn zones_of(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &[Contact]) -> V
             None => groups.push(vec![contact]),
         }
     }
-    groups.iter().filter_map(|group| zone_of(kinship, pair, group)).collect()
+    groups
 }
 
-fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]) -> Option<Zone> {
-    let bounds = [0, 1].map(|side| {
-        let stations = group.iter().map(|it| it.0.stations[side]);
-        let low = stations.clone().fold(f64::INFINITY, f64::min);
-        [low - SAMPLE, stations.fold(0.0, f64::max) + SAMPLE]
-    });
+/// First and last station of contacts on one side, and a sample around them [m].
+fn bounds(group: &[Touching], side: usize) -> [f64; 2] {
+    let stations = group.iter().map(|it| it.0.stations[side]);
+    let low = stations.clone().fold(f64::INFINITY, f64::min);
+    [low - SAMPLE, stations.fold(0.0, f64::max) + SAMPLE]
+}
+
+fn zone_of(
+    kinship: &Kinship,
+    pair: [ChainIndex; 2],
+    bounds: [[f64; 2]; 2],
+    group: &[Touching],
+) -> Option<Zone> {
     let starts = bounds.map(|it| it[0]);
     let ends = bounds.map(|it| it[1]);
     let touch = group.iter().map(|it| it.1).min()?;
     let kind = match kinship.meeting(pair, starts, ends) {
-        Meeting::Forks => return None,
         Meeting::Merges(stations) => ZoneKind::Merging(stations),
         Meeting::Shares => ZoneKind::Merging(ends.map(|it| it + LONGEST_VEHICLE)),
         Meeting::Crosses if mostly(group, |it| it.is_along) => {
@@ -74,7 +100,7 @@ fn zone_of(kinship: &Kinship, pair: [ChainIndex; 2], group: &[(&Contact, Touch)]
 }
 
 /// Whether by far the most contacts are of a kind.
-fn mostly(group: &[(&Contact, Touch)], kind: impl Fn(&Contact) -> bool) -> bool {
+fn mostly(group: &[Touching], kind: impl Fn(&Contact) -> bool) -> bool {
     const MOST: f64 = 0.8;
     let found = group.iter().filter(|it| kind(it.0)).count();
     found as f64 > MOST * group.len() as f64

@@ -34,16 +34,13 @@ pub(crate) struct Beyond {
 pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
     let Beyond { section, stop, clear, limit, arrival } = beyond;
-    if scene.waits_beside_in_fork(from).is_some() {
-        return NONE;
-    }
     let reach = clear + SPACE_SIGHT;
     let mut first = from.ahead;
     let mut taken = scene.reservations.kept_on(section);
     let mut end = f64::INFINITY;
-    for Leg { chain, start: base, before } in scene.walk(from).within(reach) {
-        let before = before.filter(|_| base < clear);
-        if before.is_some_and(|it| scene.waits_in_fork(it, chain, from.id).is_some()) {
+    for leg in scene.walk(from).within(reach) {
+        let Leg { chain, start: base, .. } = leg;
+        if base < clear && scene.waits_beside_in_fork(leg, from).is_some() {
             return NONE;
         }
         let lane = &scene.lanes[chain.at()];

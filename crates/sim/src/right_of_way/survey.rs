@@ -12,6 +12,7 @@ use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::storage_space::{Beyond, SPACE_SIGHT, space};
 use crate::route::walk::Leg;
+use crate::state::previous_lanes::PreviousLanes;
 use crate::state::standstill::ROOM_AT_A_STOP;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
@@ -155,13 +156,11 @@ pub(crate) fn stops_before(scene: &Scene, from: Viewpoint, distance: f64) -> boo
 
 /// How far ahead the vehicle in front can drive, as far as `until` [m].
 fn shield(scene: &Scene, from: Viewpoint, until: f64) -> f64 {
-    if let Some(rear) = scene.waits_beside_in_fork(from) {
-        return rear - from.x;
-    }
     let mut first = from.ahead;
-    for Leg { chain, start, before } in scene.walk(from).within(until) {
+    for leg in scene.walk(from).within(until) {
+        let Leg { chain, start, .. } = leg;
         // A vehicle that waits within the fork blocks all that come after it.
-        if let Some(rear) = before.and_then(|it| scene.waits_in_fork(it, chain, from.id)) {
+        if let Some(rear) = scene.waits_beside_in_fork(leg, from) {
             return start + rear;
         }
         let lane = &scene.lanes[chain.at()];
@@ -265,8 +264,8 @@ fn note_storage(scene: &Scene, applicant: &Applicant, [clear, limit]: [f64; 2], 
 
 /// The chain on the route with the place `distance` ahead [m].
 fn chain_at(scene: &Scene, from: Viewpoint, distance: f64) -> Leg {
-    let legs = scene.walk(from).take_while(|it| it.before.is_none() || it.start <= distance);
-    legs.last().unwrap_or(Leg { chain: from.chain, start: -from.x, before: None })
+    let legs = scene.walk(from).take_while(|it| it.before().is_none() || it.start <= distance);
+    legs.last().unwrap_or(Leg { chain: from.chain, start: -from.x, passed: PreviousLanes::NONE })
 }
 
 /// The storage sections on which the vehicle at `from` would stand after the surveyed reservation, from its rear to
@@ -278,7 +277,7 @@ pub(crate) fn sections(
 ) -> impl Iterator<Item = StorageSection> {
     let Survey { section, section_start, extent, .. } = *survey;
     let walk = scene.navigator.walk(scene.network, from.destination, section.chain, section_start);
-    walk.within(extent).map(move |it| it.before.map_or(section, |_| StorageSection::first_of(it.chain)))
+    walk.within(extent).map(move |it| it.before().map_or(section, |_| StorageSection::first_of(it.chain)))
 }
 
 /// Whether the vehicle at `spot` stands where the vehicle at `from` would stand after the surveyed reservation, or

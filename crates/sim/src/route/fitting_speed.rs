@@ -8,7 +8,6 @@ use laneweave_models::{Style, bends};
 use laneweave_network::{Bend, Chain, ChainIndex, Limit, Network, Position};
 
 use crate::route::navigate::Navigator;
-use crate::route::walk::Leg;
 use crate::state::clock::Clock;
 use crate::state::goal::Destination;
 use crate::state::vehicle::{Class, desired_speed};
@@ -83,13 +82,11 @@ impl Outlook<'_> {
         let mut slow = |place: f64, squared: f64| {
             least = least.min(squared + 2.0 * braking * (place - way).max(0.0));
         };
-        for Leg { chain, start, before } in
-            navigator.walk(network, destination, at.chain, -at.x).within(reach)
-        {
-            let chain = network.chain(chain);
-            let from = if before.is_none() { at.x } else { 0.0 };
+        for leg in navigator.walk(network, destination, at.chain, -at.x).within(reach) {
+            let (chain, start, begins) = (network.chain(leg.chain), leg.start, leg.before().is_some());
+            let from = if begins { 0.0 } else { at.x };
             if style.manner.comfortable_deceleration > 0.0 {
-                for limit in limits_from(chain, from, before.is_some()) {
+                for limit in limits_from(chain, from, begins) {
                     let speed = desired_speed(class, style, limit.speed, &network.law);
                     slow(start + limit.start, speed * speed);
                 }

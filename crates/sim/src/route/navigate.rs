@@ -207,7 +207,7 @@ impl Navigator {
     ) -> f64 {
         let (mut left, mut time) = (distance, 0.0);
         for leg in self.walk(network, destination, chain, -x) {
-            let from = if leg.before.is_none() { x } else { 0.0 };
+            let from = if leg.before().is_none() { x } else { 0.0 };
             let here = left.min(network.chain(leg.chain).length - from).max(0.0);
             time += self.links.time_to(leg.chain, from + here) - self.links.time_to(leg.chain, from);
             left -= here;

@@ -3,6 +3,7 @@
 use laneweave_network::{ChainIndex, Network};
 
 use crate::route::onward::Onward;
+use crate::state::previous_lanes::PreviousLanes;
 
 /// A chain on a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +11,16 @@ pub(crate) struct Leg {
     pub(crate) chain: ChainIndex,
     /// Distance to its start [m]; negative for the first chain of the walk.
     pub(crate) start: f64,
+    /// The chains of the walk before it.
+    pub(crate) passed: PreviousLanes,
+}
+
+impl Leg {
     /// The chain before it on the route; none for the first chain of the walk.
-    pub(crate) before: Option<ChainIndex>,
+    #[inline]
+    pub(crate) fn before(&self) -> Option<ChainIndex> {
+        self.passed.last()
+    }
 }
 
 /// The chains of a route that start within reach, from the first chain of the walk on.
@@ -36,7 +45,7 @@ impl<'a> Walk<'a> {
         chain: ChainIndex,
         start: f64,
     ) -> Walk<'a> {
-        let at = Leg { chain, start, before: None };
+        let at = Leg { chain, start, passed: PreviousLanes::NONE };
         Walk { network, onward, table, at, has_begun: false, reach: f64::INFINITY }
     }
 
@@ -79,7 +88,7 @@ impl Iterator for Walk<'_> {
             return None;
         }
         let chain = self.onward.next(self.network, self.at.chain, self.table)?;
-        self.at = Leg { chain, start, before: Some(self.at.chain) };
+        self.at = Leg { chain, start, passed: self.at.passed.left(self.at.chain) };
         Some(self.at)
     }
 }

@@ -5,14 +5,17 @@ use serde::{Deserialize, Serialize};
 
 /// The last three chains that a vehicle left, the latest first, in three bytes each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PreviousLanes([[u8; 3]; 3]);
+pub struct PreviousLanes([[u8; 3]; PreviousLanes::KNOWN]);
 
 impl PreviousLanes {
+    /// So many chains are known.
+    pub(crate) const KNOWN: usize = 3;
+
     /// No network has so many chains: a map of 2 GiB has some millions of lanelets.
     const UNKNOWN: [u8; 3] = [u8::MAX; 3];
 
     /// The previous lanes of a vehicle that has just appeared.
-    pub const NONE: PreviousLanes = PreviousLanes([PreviousLanes::UNKNOWN; 3]);
+    pub const NONE: PreviousLanes = PreviousLanes([PreviousLanes::UNKNOWN; PreviousLanes::KNOWN]);
 
     /// The previous lanes of a vehicle that goes on from `chain`.
     pub fn left(self, chain: ChainIndex) -> PreviousLanes {
@@ -27,10 +30,15 @@ impl PreviousLanes {
         chain(self.0[0])
     }
 
-    /// Whether a vehicle on `chain` came from the chain `back`, as far as is known.
+    /// Whether a vehicle on `chain` came there `over` these chains, the nearest first, as far as is known.
     #[inline]
-    pub(crate) fn came_from(self, network: &Network, chain: ChainIndex, back: ChainIndex) -> bool {
-        self.back(network, chain).next() == Some(back)
+    pub(crate) fn came_over(self, network: &Network, chain: ChainIndex, over: &[ChainIndex]) -> bool {
+        let mut back = self.back(network, chain);
+        over.iter().enumerate().all(|(count, it)| match back.next() {
+            Some(chain) => chain == *it,
+            // What came before the last three chains is not known.
+            None => count >= PreviousLanes::KNOWN,
+        })
     }
 
     /// The known chains that it came over, the latest first.

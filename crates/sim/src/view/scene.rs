@@ -19,6 +19,7 @@ use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Kinematics, Lane, LaneChangeState, VehicleId};
 use crate::state::random::Random;
 use crate::state::traffic::Traffic;
+use crate::state::vehicle::LONGEST;
 
 /// One instant of traffic on a network.
 #[derive(Clone, Copy, Debug)]
@@ -248,46 +249,47 @@ impl<'a> Scene<'a> {
     /// The leader within sight.
     #[inline]
     pub fn ahead(&self, from: Viewpoint) -> Option<Ahead> {
+        let chain = self.network.chain(from.chain);
         let motions = self.motions(from.chain);
-        let on_way = match motions[from.ahead..].iter().find(|it| it.id != from.id) {
-            Some(it) => Some(it.ahead(it.rear() - from.x)),
-            None => self.ahead_beyond(from),
-        };
-        let is_in_fork = from.x < self.network.chain(from.chain).fork_clearance;
-        if is_in_fork { self.nearest_in_fork(from, on_way) } else { on_way }
+        match motions[from.ahead..].iter().find(|it| it.id != from.id) {
+            Some(it) if from.x >= chain.fork_clearance => Some(it.ahead(it.rear() - from.x)),
+            _ => self.leader(from).map(|(spot, gap)| self.motion(spot).ahead(gap)),
+        }
     }
 
     /// The next vehicle within sight, on the route or beside it in a fork, wherever it comes from.
     pub fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
-        self.walk(from).within(SIGHT).find_map(|Leg { chain, before, .. }| {
-            let (first, beside) = match before {
-                Some(before) => (0, self.beyond_the_fork(before, chain, from.id)),
-                None if from.x < self.network.chain(chain).fork_clearance => {
-                    (from.ahead, self.beside_in_fork(from))
-                }
-                None => (from.ahead, None),
-            };
-            let motions = &self.motions(chain)[first..];
-            let place = motions.iter().position(|it| it.id != from.id);
-            let on_way = place.map(|it| (Spot { chain, index: first + it }, motions[it].rear()));
-            nearest(on_way.into_iter().chain(beside)).map(|(spot, _)| spot)
-        })
+        self.leader(from).map(|it| it.0)
     }
 
-    /// The leader beyond the end of the chain.
-    fn ahead_beyond(&self, from: Viewpoint) -> Option<Ahead> {
-        self.walk(from).within(SIGHT).find_map(|Leg { chain, start, before }| {
-            let before = before?;
+    /// The leader within sight, and the gap to it [m].
+    fn leader(&self, from: Viewpoint) -> Option<(Spot, f64)> {
+        let mut found: Option<(Spot, f64)> = None;
+        let mut first = from.ahead;
+        for leg in self.walk(from).within(SIGHT) {
+            let Leg { chain, start, .. } = leg;
+            // A vehicle on a later chain may reach back to one that is found on another branch of a fork.
+            if found.is_some_and(|(_, gap)| gap + LONGEST < start) {
+                break;
+            }
             let lane = &self.lanes[chain.at()];
-            let on_way = lane.motions().iter().position(|it| it.id != from.id);
-            let leader = on_way.map(|index| {
+            let place = lane.motions()[first..].iter().position(|it| it.id != from.id);
+            let on_way = place.map(|place| {
+                let index = first + place;
                 let (it, lane_change) = (&lane.motions()[index], &lane.lane_change_states()[index]);
-                it.ahead(self.gap_to(before, start, it, lane_change))
+                let to_rear = || start + it.rear();
+                let gap =
+                    leg.before().map_or_else(to_rear, |before| self.gap_to(before, start, it, lane_change));
+                (Spot { chain, index }, gap)
             });
-            let beside = self.beyond_the_fork(before, chain, from.id);
-            let beside = beside.map(|(spot, rear)| self.rear_ahead(spot, start + rear));
-            nearer(leader, beside)
-        })
+            let beside = self.beside_in_fork(leg, from).map(|(spot, rear)| (spot, start + rear));
+            found = nearest(found.into_iter().chain(on_way).chain(beside));
+            if on_way.is_some() {
+                break;
+            }
+            first = 0;
+        }
+        found
     }
 
     /// Gap to the vehicle `it`, whose chain starts `base` ahead [m]. If its rear is still on another route into that

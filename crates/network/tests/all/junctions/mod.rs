@@ -1,6 +1,7 @@
 //! Junctions: where lanes conflict, which has priority, and what lights show.
 
 mod drawn;
+mod forks;
 mod lights;
 mod nearby;
 mod precedence;
