@@ -50,6 +50,9 @@ pub(super) struct Contact {
     pub(super) is_beyond: bool,
 }
 
+/// A contact, and which vehicles touch there.
+pub(super) type Touching<'a> = (&'a Contact, Touch);
+
 /// A place on a chain, and the place inside of a bend where the middle of the longest vehicle passes.
 #[derive(Clone, Copy)]
 struct Sample {

@@ -1,7 +1,6 @@
 //! Where the branches of forks part: up to there, whoever takes one branch is in the way of those who take another.
 
-use super::contact::{LONGEST_VEHICLE, SAMPLE};
-use super::zones::Touching;
+use super::contact::{LONGEST_VEHICLE, SAMPLE, Touching};
 use crate::chain::{Chain, ChainIndex, ForkBranch};
 use crate::geometry::Point;
 use crate::junction::Touch;
@@ -30,8 +29,8 @@ pub(super) struct Fork {
 }
 
 impl Fork {
-    /// The fork at the end of the chain `at`, if paths of these lengths [m] lead from there to both chains, and have not
-    /// parted.
+    /// The fork at the end of the chain `at`, if paths of these lengths [m] lead from there to both chains, and have
+    /// not parted.
     pub(super) fn between(
         network: &Network,
         at: ChainIndex,

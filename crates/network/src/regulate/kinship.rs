@@ -1,7 +1,7 @@
 //! How chains near each other are related: one after the other, forking off together, leading into one.
 
 use super::fork::Fork;
-use crate::chain::{Chain, ChainIndex};
+use crate::chain::ChainIndex;
 use crate::lanelet::Side;
 use crate::network::Network;
 
@@ -57,11 +57,14 @@ impl<'a> Kinship<'a> {
         is_behind(a, at_a, b, at_b) || is_behind(b, at_b, a, at_a)
     }
 
-    /// Whether lanes may be changed between these stations of two chains, one of which begins or ends beside the
-    /// other.
+    /// Whether lanes may be changed between these stations of two chains, at one of which a lane that begins or ends
+    /// beside the other is narrower than a long vehicle, or nearly at its end.
     pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let chain = |it: ChainIndex| self.network.chain(it);
-        let is_partial = |it: ChainIndex| chain(it).is_lane_drop() || chain(it).open != Chain::WIDE;
+        let is_partial = |it: ChainIndex, at: f64| {
+            let chain = chain(it);
+            !chain.is_open(at, true) || (chain.is_lane_drop() && at > chain.length - BEHIND)
+        };
         let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {
             let mut stretches = Side::BOTH.into_iter().flat_map(|side| chain(from).stretches(side));
             stretches.any(|it| {
@@ -70,7 +73,7 @@ impl<'a> Kinship<'a> {
                     && (it.across(at) - at_there).abs() < BEHIND
             })
         };
-        (is_partial(a) || is_partial(b)) && (leads(a, at_a, b, at_b) || leads(b, at_b, a, at_a))
+        (is_partial(a, at_a) || is_partial(b, at_b)) && (leads(a, at_a, b, at_b) || leads(b, at_b, a, at_a))
     }
 
     /// The forks behind two chains from which on these have not parted yet before the stretches that begin at `starts`.

@@ -1,6 +1,6 @@
 //! The conflict zones of chains, and the places where they part at forks: contacts of two chains, put together.
 
-use super::contact::{Contact, LONGEST_VEHICLE, SAMPLE};
+use super::contact::{Contact, LONGEST_VEHICLE, SAMPLE, Touching};
 use super::fork::Parting;
 use super::kinship::{Kinship, Meeting};
 use crate::chain::ChainIndex;
@@ -23,15 +23,30 @@ pub(super) fn zones(
             let is_fork = forks.iter().any(|it| kinship.come_only_from(it, *pair));
             partings.extend(forks.into_iter().map(|fork| Parting::of(*pair, fork, &group)));
             if !is_fork {
-                zones.extend(zone_of(kinship, *pair, bounds, &group));
+                add(&mut zones, zone_of(kinship, *pair, bounds, &group));
             }
         }
     }
     (zones, partings)
 }
 
-/// A contact, and which vehicles touch there.
-pub(super) type Touching<'a> = (&'a Contact, Touch);
+/// Adds a zone, or makes it part of one that is known, if both lead into the same place for the same vehicles: a merge
+/// is passed as a whole.
+fn add(zones: &mut Vec<Zone>, zone: Option<Zone>) {
+    let Some(zone) = zone else { return };
+    let chains = |it: &Zone| it.sides.map(|it| it.chain);
+    let is_merge = matches!(zone.kind, ZoneKind::Merging(_));
+    let of_pair = zones.iter_mut().rev().take_while(|it| chains(it) == chains(&zone));
+    let mut same = of_pair.filter(|it| is_merge && it.kind == zone.kind && it.touch == zone.touch);
+    match same.next() {
+        Some(known) => {
+            for (known, side) in known.sides.iter_mut().zip(zone.sides) {
+                (known.start, known.end) = (known.start.min(side.start), known.end.max(side.end));
+            }
+        }
+        None => zones.push(zone),
+    }
+}
 
 /// The contacts of two chains, which are in the order of the first chain's stations, by the zones to which they belong.
 fn groups<'a>(kinship: &Kinship, pair: [ChainIndex; 2], contacts: &'a [Contact]) -> Vec<Vec<Touching<'a>>> {

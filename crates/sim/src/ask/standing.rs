@@ -10,6 +10,7 @@ use crate::junction::need::Survey;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{earlier, look, sight};
 use crate::right_of_way::may_pass::{Asking, PassHindrance, may_pass};
+use crate::right_of_way::mergers::not_led_on;
 use crate::right_of_way::survey::stop_ahead;
 use crate::state::externals::{Kind, Service};
 use crate::state::lane::VehicleId;
@@ -126,7 +127,8 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
     let mut survey = Survey::default();
     let applicant = Applicant::at(scene, spot);
     if !surveyed(scene, &applicant, &mut survey) {
-        return StandsFor::After(before_it(scene, spot));
+        let waiting = not_led_on(scene, &applicant, &survey).map(|it| it.vehicle);
+        return StandsFor::After(before_it(scene, spot).into_iter().chain(waiting).collect());
     }
     let waiting = world.waits_at_a_junction(spot);
     let since = waiting.map_or(world.clock().step, |it| it.since);

@@ -3,7 +3,7 @@
 use laneweave_models::braking::is_secure;
 use laneweave_models::follow::Ahead;
 use laneweave_models::yielding::MARGIN;
-use laneweave_network::{ChainIndex, Precedence, Reach, ZoneKind};
+use laneweave_network::{ChainIndex, Precedence, Reach, Zone, ZoneKind};
 
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
@@ -93,7 +93,10 @@ pub(crate) fn may_pass(
         return Err(PassHindrance::Sign);
     }
     let (Scene { reservations, lanes, .. }, way) = (*scene, [applicant.from.chain, survey.section.chain]);
-    if reservations.roundabouts.is_closed(reservations, lanes, way, asking.priority, survey.needed) {
+    let is_entering = || survey.holds.iter().any(|it| goes_on_through(scene, applicant, it));
+    if reservations.roundabouts.is_closed(reservations, lanes, way, asking.priority, survey.needed)
+        && !is_entering()
+    {
         return Err(PassHindrance::Roundabout);
     }
     // An impatient driver leaves no space: the vehicles with priority may all wait for the driver who would take it.
@@ -159,7 +162,8 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
             && !is_out_before(scene, applicant, hold, it)
             && !clears_it(it)
     };
-    if turn.is_some_and(|it| waits_for(&it)) {
+    let is_first = goes_on_through(scene, applicant, hold);
+    if !is_first && turn.is_some_and(|it| waits_for(&it)) {
         return false;
     }
     let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
@@ -170,7 +174,17 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
         }
         ZoneKind::Crossing => others.all(|(_, other)| clears(scene, applicant, hold, other)),
     };
-    fits && accepts_lag(scene, applicant, hold, asking)
+    fits && (is_first || accepts_lag(scene, applicant, hold, asking))
+}
+
+/// Whether the applicant is on its way through a merge of which the zone of `hold` is another part. Whoever comes from
+/// the other side goes after it there, and so in all of the merge.
+fn goes_on_through(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation) -> bool {
+    let zone = |it: &ZoneReservation| &scene.network.junctions.zones[it.zone.at()];
+    let chains = |it: &Zone| it.sides.map(|it| it.chain);
+    let is_part = |it: &Zone| matches!(it.kind, ZoneKind::Merging(_)) && chains(it) == chains(zone(hold));
+    let own = applicant.reservation.into_iter().flat_map(|it| &it.holds);
+    own.map(zone).any(is_part)
 }
 
 /// Whether the driver who waits for its turn on the other side goes before the asking driver.

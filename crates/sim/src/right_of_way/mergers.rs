@@ -15,26 +15,35 @@ use crate::view::scene::Scene;
 /// applicant would go. If not, the applicant would stand within the zones behind a waiting vehicle. The merges are
 /// those of its reservation and those that it has surveyed.
 pub(crate) fn are_led_on(scene: &Scene, applicant: &Applicant, survey: &Survey) -> bool {
+    not_led_on(scene, applicant, survey).next().is_none()
+}
+
+/// The vehicles that go before the applicant into a merge, and have no reservation that reaches as far as the applicant
+/// would go.
+pub(crate) fn not_led_on<'a>(
+    scene: &'a Scene,
+    applicant: &'a Applicant,
+    survey: &'a Survey,
+) -> impl Iterator<Item = &'a Reservation> {
     let clear = survey.extent - applicant.length;
     let is_merge = |hold: &&ZoneReservation| {
         matches!(scene.network.junctions.zones[hold.zone.at()].kind, ZoneKind::Merging(_))
     };
-    let is_led_on = |to_merge: f64, hold: &ZoneReservation, other: &Reservation| {
+    let stays = move |to_merge: f64, hold: &ZoneReservation, other: &Reservation| {
         let ahead = leader_into(to_merge, hold, other);
-        ahead.is_none_or(|it| it.gap + other.left().max(0.0) >= clear - ROUNDING)
+        ahead.is_some_and(|it| it.gap + other.left().max(0.0) < clear - ROUNDING)
     };
-    let mut asked = survey.holds.iter().filter(is_merge);
-    let mut given = applicant
-        .reservation
-        .into_iter()
-        .flat_map(|own| own.holds.iter().filter(is_merge).map(move |it| (own, it)));
-    asked.all(|hold| {
-        let mut others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-        others.all(|(_, other)| is_led_on(hold.leave, hold, other))
-    }) && given.all(|(own, hold)| {
+    let asked = survey.holds.iter().filter(is_merge).flat_map(move |hold| {
+        let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
+        others.map(|it| it.1).filter(move |other| stays(hold.leave, hold, other))
+    });
+    let own = applicant.reservation.into_iter();
+    let given =
+        own.flat_map(|own| own.holds.iter().map(move |it| (own, it))).filter(move |it| is_merge(&it.1));
+    asked.chain(given.flat_map(move |(own, hold)| {
         let before =
             scene.reservations.order(hold.zone).take_while(|(_, it)| it.vehicle != applicant.from.id);
-        let mut others = before.filter(|(it, _)| it.side != hold.side);
-        others.all(|(_, other)| is_led_on(hold.leave - own.travelled, hold, other))
-    })
+        let others = before.filter(|(it, _)| it.side != hold.side).map(|it| it.1);
+        others.filter(move |other| stays(hold.leave - own.travelled, hold, other))
+    }))
 }

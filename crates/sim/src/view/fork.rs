@@ -8,8 +8,8 @@ use crate::state::previous_lanes::PreviousLanes;
 use crate::view::scene::{Scene, Spot, Viewpoint, nearest};
 
 impl Scene<'_> {
-    /// The nearest vehicle ahead of the vehicle at `from` on another branch of a fork from which its route, with this `leg`,
-    /// has not parted yet, and the distance of its rear bumper from the start of the leg [m].
+    /// The nearest vehicle ahead of the one at `from`, on another branch of a fork from which its route has not parted
+    /// yet on this `leg`; and the distance of its rear bumper from the start of the leg [m].
     #[inline]
     pub(crate) fn beside_in_fork(&self, leg: Leg, from: Viewpoint) -> Option<(Spot, f64)> {
         let branches = self.branches_beside(leg);
@@ -65,8 +65,8 @@ impl Scene<'_> {
             && (behind.is_empty() || passed == PreviousLanes::KNOWN || self.came_over(from, behind))
     }
 
-    /// Whether the vehicle at `from` came to its chain over these, the nearest first. Of a vehicle that is not there it is
-    /// assumed.
+    /// Whether the vehicle at `from` came to its chain over these, the nearest first. Of a vehicle that is not there
+    /// it is assumed.
     fn came_over(&self, from: Viewpoint, over: &[ChainIndex]) -> bool {
         let itself = from.ahead.checked_sub(1).filter(|it| self.motions(from.chain)[*it].id == from.id);
         itself.is_none_or(|index| {
