@@ -7,6 +7,7 @@ use crate::junction::storage_section::StorageSection;
 use crate::right_of_way::survey::{BEFORE_A_ZONE, ROUNDING, parts};
 use crate::route::walk::Leg;
 use crate::state::lane::Phase;
+use crate::state::standstill::STANDSTILL;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
 /// Vehicles are searched up to this distance beyond the zones [m] (ours).
@@ -56,13 +57,17 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
             let reservation = scene.reservations.of(lane.lane_change_states()[index].reservation, motion.id);
             // Behind a vehicle that stops for a light at the same place, it stops before all zones.
             let after = stop + BEFORE_A_ZONE + ROUNDING - base - motion.x;
-            let gets_to = rear + reservation.map_or(0.0, |it| it.left_for_certain(after).max(0.0));
+            // Whoever stands although it may go waits for somebody who may stand for long.
+            let goes = reservation.filter(|_| motion.speed >= STANDSTILL);
+            let gets_to = rear + goes.map_or(0.0, |it| it.left_for_certain(after).max(0.0));
             if rear >= clear {
                 // A vehicle whose reservation leads beyond the storage space does not stop in it.
                 if gets_to < limit {
                     let stops_at = rear + motion.speed * motion.speed / (2.0 * EXPECTED_BRAKING);
-                    let moves_to =
-                        if moves_up(scene, from, spot) { rear + motion.speed * arrival } else { rear };
+                    // It may have to stop at the limit.
+                    let last = (limit - f64::from(motion.length)).max(rear);
+                    let moved = (rear + motion.speed * arrival).min(last);
+                    let moves_to = if moves_up(scene, from, spot) { moved } else { rear };
                     end = end.min(moves_to.max(stops_at).max(gets_to) - taken);
                     taken += f64::from(motion.length) + SPARE_SPACE;
                 }
