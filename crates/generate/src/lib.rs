@@ -29,6 +29,6 @@ pub use grid::{Arterial, Grid, arterial, grid};
 pub use large_town::large_town;
 pub use motorway::{Motorway, Weaving, motorway};
 pub use own::own_maps;
-pub use random::{Element, Hazard, RandomMap, random};
+pub use random::{Element, Hazard, RandomMap, random, random_with};
 pub use roundabout::{Roundabout, roundabout};
 pub use town::town;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use laneweave::Fault;
 use laneweave::generate::{
-    Arterial, Control, GenerateError, Grid, Hazard, Motorway, Roundabout, approach, arterial, grid,
-    large_town, motorway, random, roundabout, town,
+    Arterial, Control, GenerateError, Grid, Hazard, Motorway, RandomMap, Roundabout, approach, arterial,
+    grid, large_town, motorway, random, random_with, roundabout, town,
 };
 use laneweave::maps::{Drawing, FileKind, is_compressed};
 use laneweave::network::DrivingSide;
@@ -157,9 +157,11 @@ pub(crate) struct RandomArguments {
     /// Seed of the map: the same seed gives the same map.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// The map file to write (.osm); one that is there is replaced.
-    #[arg(value_hint = ValueHint::FilePath)]
-    file: PathBuf,
+    /// Draw only this difficult element, and as many as there is room for, such as nested-fork; a wrong name lists all.
+    #[arg(long, value_name = "ELEMENT")]
+    only: Option<Hazard>,
+    #[command(flatten)]
+    plain: Plain,
 }
 
 /// What every map needs.
@@ -197,7 +199,7 @@ impl Kind {
             Kind::Roundabout(it) => ("roundabout", &it.plain.file),
             Kind::Approach(plain) => ("approach", &plain.file),
             Kind::Town(it) => ("town", &it.plain.file),
-            Kind::Random(it) => ("random", &it.file),
+            Kind::Random(it) => ("random", &it.plain.file),
         };
         let write = writer(file)?;
         let drawing = self.draw().map_err(|error| {
@@ -224,7 +226,7 @@ impl Kind {
                 Some(size) => large_town(size, it.plain.side()),
                 None => Ok(town(it.plain.side())),
             },
-            Kind::Random(it) => Ok(random(it.seed).drawing),
+            Kind::Random(it) => Ok(it.draw()),
         }
     }
 }
@@ -311,9 +313,18 @@ impl RoundaboutArguments {
 }
 
 impl RandomArguments {
+    fn map(&self) -> RandomMap {
+        self.only.map_or_else(|| random(self.seed), |it| random_with(self.seed, it))
+    }
+
+    fn draw(&self) -> Drawing {
+        let drawing = self.map().drawing;
+        if self.plain.side() == drawing.driving_side { drawing } else { drawing.mirrored() }
+    }
+
     /// The difficulties of the map, for the screen.
     fn told(&self) -> String {
-        let hazards: Vec<&str> = random(self.seed).hazards().into_iter().map(Hazard::name).collect();
+        let hazards: Vec<&str> = self.map().hazards().into_iter().map(Hazard::name).collect();
         format!("random map {}: {}\n", self.seed, hazards.join(", "))
     }
 }

@@ -11,6 +11,10 @@ const RADIUS: [f64; 2] = [8.0, 20.0];
 /// Angle of sharp bends, and of those with one back [rad].
 const TURN: [f64; 2] = [0.8, 2.1];
 const THERE_AND_BACK: [f64; 2] = [0.4, 1.1];
+/// Radius of hairpins, width of their lanes [m], and their angle [rad].
+const HAIRPIN_RADIUS: [f64; 2] = [8.0, 10.0];
+const HAIRPIN_WIDTH: [f64; 2] = [2.2, 2.4];
+const HAIRPIN: [f64; 2] = [1.2, 2.6];
 /// Limit on bends [km/h].
 const BEND_LIMIT: f64 = 30.0;
 /// Length of short lanelets [m], and their number in a row.
@@ -38,6 +42,31 @@ pub(super) fn reverse_curve(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let there = if pen.dice.chance(0.5) { pen.straight(&there, [2.0, 20.0]) } else { there };
     let back = bend(pen, &there, -turn);
     Some(Built::road(after(pen, back, mouth.limit_kmh), Hazard::ReverseCurve))
+}
+
+/// Bends so tight, of lanes so narrow, that a long vehicle needs both directions.
+pub(super) fn hairpin(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    let usual: Vec<f64> = mouth.knots.iter().map(|it| it.offset).collect();
+    let width = pen.dice.between(HAIRPIN_WIDTH[0], HAIRPIN_WIDTH[1]);
+    let there = Stretch::onward(mouth, Path::straight(mouth.pose, TRANSITION));
+    let narrow = pen.draw(&there.to(&narrowed(mouth, width), Ease::Smooth)).at_most(BEND_LIMIT);
+    let turn = pen.dice.between(HAIRPIN[0], HAIRPIN[1]) * pen.dice.sign();
+    let inner = pen.dice.between(HAIRPIN_RADIUS[0], HAIRPIN_RADIUS[1]);
+    let radius = (inner + (narrow.breadth() - width) / 2.0) * turn.signum();
+    let bent = pen.go_on(&narrow, Path::arc(narrow.pose, radius, turn));
+    let back = Stretch::onward(&bent, Path::straight(bent.pose, TRANSITION));
+    let wide = pen.draw(&back.to(&usual, Ease::Smooth));
+    Some(Built::road(after(pen, wide, mouth.limit_kmh), Hazard::Hairpin))
+}
+
+/// The offsets of the lines of lanes of this width [m].
+fn narrowed(mouth: &Mouth, width: f64) -> Vec<f64> {
+    let lanes = mouth.lanes() as f64;
+    if mouth.is_two_way() {
+        two_way_offsets(width, 0.0).to_vec()
+    } else {
+        (0..=mouth.lanes()).map(|it| (lanes / 2.0 - it as f64) * width).collect()
+    }
 }
 
 fn after(pen: &mut Pen, bent: Mouth, limit_kmh: f64) -> Mouth {
@@ -68,12 +97,7 @@ pub(super) fn short_lanelets(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
 pub(super) fn narrow_lanes(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let usual: Vec<f64> = mouth.knots.iter().map(|it| it.offset).collect();
     let width = pen.dice.between(NARROW[0], NARROW[1]);
-    let lanes = mouth.lanes() as f64;
-    let offsets: Vec<f64> = if mouth.is_two_way() {
-        two_way_offsets(width, 0.0).to_vec()
-    } else {
-        (0..=mouth.lanes()).map(|it| (lanes / 2.0 - it as f64) * width).collect()
-    };
+    let offsets = narrowed(mouth, width);
     let there = Stretch::onward(mouth, Path::straight(mouth.pose, TRANSITION));
     let narrow = pen.draw(&there.to(&offsets, Ease::Smooth));
     let length = pen.dice.between(NARROW_LENGTH[0], NARROW_LENGTH[1]);

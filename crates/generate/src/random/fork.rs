@@ -9,6 +9,7 @@ use crate::path::Path;
 
 /// Length with lane changes before lanes part [m], and lengths without before and after [m].
 const WINDOW: [f64; 2] = [12.0, 60.0];
+const TINY: [f64; 2] = [2.0, 12.0];
 const BEFORE: [f64; 2] = [50.0, 150.0];
 const AFTER: [f64; 2] = [10.0, 50.0];
 /// Angle by which roads turn away from each other [rad].
@@ -18,16 +19,25 @@ const TOGETHER: [f64; 2] = [30.0, 80.0];
 
 /// Lanes with a short stretch for lane changes, which then part.
 pub(super) fn short_window(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    parting(pen, mouth, WINDOW, Hazard::ShortWindow)
+}
+
+/// The same with a stretch on which hardly anybody can change lanes in time.
+pub(super) fn tiny_window(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    parting(pen, mouth, TINY, Hazard::TinyWindow)
+}
+
+fn parting(pen: &mut Pen, mouth: &Mouth, window: [f64; 2], hazard: Hazard) -> Option<Built> {
     if mouth.is_two_way() || mouth.lanes() < 2 || !mouth.is_ahead() {
         return None;
     }
     let before = solid(pen, mouth, BEFORE);
-    let window = pen.straight(&before, WINDOW);
+    let window = pen.straight(&before, window);
     let end = solid(pen, &window, AFTER);
     let at = pen.dice.count(1, end.lanes() - 1);
     let left = away(pen, &end.only(0..at), 1.0);
     let right = away(pen, &end.only(at..end.lanes()), -1.0);
-    Some(Built { mouths: vec![left, right], hazard: Some(Hazard::ShortWindow) })
+    Some(Built { mouths: vec![left, right], hazard: Some(hazard) })
 }
 
 fn solid(pen: &mut Pen, mouth: &Mouth, [from, to]: [f64; 2]) -> Mouth {

@@ -10,7 +10,10 @@ use super::element::{Builder, Built};
 use super::ground::Ground;
 use super::mouth::{Mouth, Width};
 use super::stretch::Pen;
-use super::{Element, RandomMap, alignment, fork, junction, lane_end, merge, ramp, ring, shared, strip};
+use super::{Element, Hazard, RandomMap};
+use super::{
+    alignment, bulge, fork, gap, junction, lane_end, merge, nested, ramp, ring, shared, strip, weave,
+};
 use crate::canvas::Canvas;
 use crate::street::pose;
 
@@ -18,6 +21,8 @@ use crate::street::pose;
 const ENOUGH: f64 = 2200.0;
 /// Number of attempts before an element is left out.
 const TRIES: usize = 6;
+/// The same where only one kind of difficulty is drawn.
+const TRIES_OF_ONE: usize = 120;
 /// Number of elements along the first road, and along those that branch off.
 const FIRST: [usize; 2] = [3, 7];
 const FURTHER: [usize; 2] = [0, 2];
@@ -27,12 +32,14 @@ const FAR: f64 = 300.0;
 /// The road between elements, and to the edge of the map [m].
 const BETWEEN: [f64; 2] = [15.0, 70.0];
 const TO_EDGE: [f64; 2] = [40.0, 150.0];
+/// A very short first lanelet [m].
+const SHORT: [f64; 2] = [2.0, 8.0];
 /// Widths of lanes [m], and speed limits [km/h].
 const WIDTHS: [f64; 2] = [2.9, 3.75];
 const LIMITS: [f64; 4] = [30.0, 50.0, 70.0, 100.0];
 
 /// Elements for roads of one direction, and for streets of both; more likely ones are listed more than once.
-const ONE_WAY: [Builder; 18] = [
+const ONE_WAY: [Builder; 35] = [
     lane_end::narrowing,
     lane_end::narrowing,
     lane_end::opening,
@@ -51,8 +58,25 @@ const ONE_WAY: [Builder; 18] = [
     fork::to_edge,
     merge::merge,
     merge::merge,
+    nested::nested_fork,
+    nested::nested_fork,
+    nested::row_of_forks,
+    nested::row_of_forks,
+    lane_end::opening_at_light,
+    lane_end::opening_at_light,
+    bulge::bulge,
+    bulge::bulge,
+    weave::shared_entrance,
+    weave::shared_entrance,
+    weave::merge_then_exit,
+    weave::crossing_exits,
+    weave::crossing_exits,
+    fork::tiny_window,
+    fork::tiny_window,
+    fork::tiny_window,
+    gap::gap,
 ];
-const TWO_WAY: [Builder; 11] = [
+const TWO_WAY: [Builder; 15] = [
     fork::divided,
     shared::one_lane_street,
     shared::one_lane_street,
@@ -61,11 +85,15 @@ const TWO_WAY: [Builder; 11] = [
     junction::junction,
     junction::junction,
     ring::roundabout,
+    ring::short_arms,
+    ring::short_arms,
+    gap::turn_back,
+    gap::turn_back,
     strip::strip,
     alignment::sharp_bend,
     alignment::reverse_curve,
 ];
-const ANY: [Builder; 2] = [alignment::short_lanelets, alignment::narrow_lanes];
+const ANY: [Builder; 3] = [alignment::short_lanelets, alignment::narrow_lanes, alignment::hairpin];
 
 /// A road that may continue.
 struct Bud {
@@ -80,12 +108,15 @@ struct Growth {
     ground: Ground,
     elements: Vec<Element>,
     buds: VecDeque<Bud>,
+    /// The only difficulty that it may have, if there is one.
+    only: Option<Hazard>,
 }
 
-/// Grows the map of a seed; each attempt is different.
-pub(super) fn grow(seed: u64, attempt: u64) -> RandomMap {
+/// Grows the map of a seed, with all kinds of difficulties or `only` one; each attempt is different.
+pub(super) fn grow(seed: u64, attempt: u64, only: Option<Hazard>) -> RandomMap {
     let pen = Pen { canvas: Canvas::new(), dice: Dice::new(seed, attempt), length: 0.0 };
-    let mut growth = Growth { pen, ground: Ground::default(), elements: Vec::new(), buds: VecDeque::new() };
+    let mut growth =
+        Growth { pen, ground: Ground::default(), elements: Vec::new(), buds: VecDeque::new(), only };
     growth.begin();
     while let Some(bud) = growth.buds.pop_front() {
         growth.go_on(bud);
@@ -104,13 +135,17 @@ impl Growth {
         let elements = dice.count(FIRST[0], FIRST[1]);
         let ahead = dice.chance(0.7);
         let lanes = dice.count(1, 3);
-        let (edge, builder): (Mouth, Builder) = match dice.count(0, 9) {
+        let (edge, builder): (Mouth, Builder) = match dice.count(0, 11) {
+            10 => (Mouth::one_way(canvas, at, lanes, ahead, width), from_short_lanelet),
+            11 => (Mouth::two_way(canvas, at, 0.0, width), from_short_lanelet),
             0..3 => (Mouth::one_way(canvas, at, lanes, ahead, width), from_edge),
             3..6 => (Mouth::one_way(canvas, at, 1, ahead, width), fork::from_edge),
             6 => (Mouth::two_way(canvas, at, 0.0, width), shared::from_edge),
             _ => (Mouth::two_way(canvas, at, 0.0, width), from_edge),
         };
-        self.build(&edge, None, builder, elements);
+        if !self.build(&edge, None, builder, elements) {
+            self.build(&edge, None, from_edge, elements);
+        }
     }
 
     /// Draws, with a probability, a street that is joined to nothing.
@@ -134,7 +169,8 @@ impl Growth {
     fn go_on(&mut self, Bud { mouth, elements }: Bud) {
         let joint = Some(mouth.pose.at);
         if elements > 0 && self.pen.length < ENOUGH {
-            for _ in 0..TRIES {
+            let tries = if self.only.is_some() { TRIES_OF_ONE } else { TRIES };
+            for _ in 0..tries {
                 if self.build(&mouth, joint, any, elements - 1) {
                     return;
                 }
@@ -152,7 +188,8 @@ impl Growth {
         // The next element uses other random numbers, even if this one is left out.
         self.pen.dice = pen.dice.clone();
         let Some(Built { mouths, hazard }) = built else { return false };
-        if !self.ground.take(&pen, first, joint) {
+        let is_wanted = self.only.is_none_or(|only| hazard.is_none_or(|it| it == only));
+        if !is_wanted || !self.ground.take(&pen, first, joint) {
             return false;
         }
         let lanelets = first as i64 + 1..pen.canvas.drawing().lanes.len() as i64 + 1;
@@ -169,6 +206,12 @@ impl Growth {
 /// The road from the edge of the map onwards.
 fn from_edge(pen: &mut Pen, edge: &Mouth) -> Option<Built> {
     Some(Built { mouths: vec![pen.straight(edge, TO_EDGE)], hazard: None })
+}
+
+/// The same with a very short first lanelet.
+fn from_short_lanelet(pen: &mut Pen, edge: &Mouth) -> Option<Built> {
+    let short = pen.straight(edge, SHORT);
+    Some(Built::road(pen.straight(&short, TO_EDGE), Hazard::ShortEntrance))
 }
 
 /// The road to the edge of the map.

@@ -16,7 +16,7 @@ const ANGLE: [f64; 2] = [1.05, 2.09];
 /// Radius of the outer edge of turns to the right [m].
 const RADIUS: [f64; 2] = [6.0, 12.0];
 /// Length of arms [m].
-const ARM: [f64; 2] = [25.0, 60.0];
+pub(super) const ARM: [f64; 2] = [25.0, 60.0];
 /// Limit on the paths over a junction [km/h].
 const LIMIT: f64 = 50.0;
 
@@ -47,7 +47,7 @@ pub(super) fn junction(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     let mut arms = vec![own_arm(mouth)?];
     let mut mouths = Vec::new();
     for turn in &turns {
-        let (arm, outer) = new_arm(pen, mouth, *turn, [setback, setback])?;
+        let (arm, outer) = new_arm(pen, mouth, *turn, [setback, setback], ARM)?;
         arms.push(arm);
         mouths.push(outer);
     }
@@ -67,13 +67,19 @@ pub(super) fn own_arm(mouth: &Mouth) -> Option<Arm> {
     Some(Arm { heading: mouth.pose.heading + PI, arriving, leaving })
 }
 
-/// Draws an arm at this angle to the road, and also returns its outer end. The two setbacks [m] are: from the mouth
+/// Draws an arm at this angle to the road, of a `length` in this range [m], and also returns its outer end. The two setbacks [m] are: from the mouth
 /// to the middle of the junction, and from there to the beginning of the arm.
-pub(super) fn new_arm(pen: &mut Pen, mouth: &Mouth, turn: f64, setbacks: [f64; 2]) -> Option<(Arm, Mouth)> {
+pub(super) fn new_arm(
+    pen: &mut Pen,
+    mouth: &Mouth,
+    turn: f64,
+    setbacks: [f64; 2],
+    length: [f64; 2],
+) -> Option<(Arm, Mouth)> {
     let middle = onward(mouth.pose, setbacks[0], turn);
     let pose = onward(middle, setbacks[1], 0.0);
     let inner = Mouth::two_way(&mut pen.canvas, pose, 0.0, mouth.width());
-    let outer = pen.straight(&inner, ARM);
+    let outer = pen.straight(&inner, length);
     let lanelets = outer.lanelets.clone();
     let inner = Mouth { lanelets, ..inner };
     let (arriving, leaving) = (inner.lane_end(false)?, inner.lane_end(true)?);

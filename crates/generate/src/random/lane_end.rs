@@ -7,6 +7,11 @@ use super::stretch::{Pen, Stretch};
 
 /// Length of tapers [m].
 const TAPER: [f64; 2] = [30.0, 200.0];
+/// Length of tapers right before a light, and from there to its stop line [m].
+const SHORT_TAPER: [f64; 2] = [8.0, 30.0];
+const STORAGE: [f64; 2] = [8.0, 20.0];
+/// Angle by which such a lane turns off behind the light [rad].
+const TURN: [f64; 2] = [0.5, 1.1];
 /// Length with lane changes before a lane ends, and length of the unchanged road [m].
 const BEFORE: [f64; 2] = [50.0, 150.0];
 const AFTER: [f64; 2] = [40.0, 80.0];
@@ -41,12 +46,37 @@ pub(super) fn opening(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     }
     let mouth = pen.straight(mouth, AFTER);
     let length = pen.dice.between(TAPER[0], TAPER[1]);
-    let path = pen.gentle(&mouth, length);
+    let (wide, _) = opened(pen, &mouth, length);
+    let hazard = if mouth.is_ahead() { Hazard::OpeningLane } else { Hazard::Taper };
+    Some(Built::road(pen.straight(&wide, BEFORE), hazard))
+}
+
+/// A further lane opens over a few metres, right before a light; beyond, it turns off.
+pub(super) fn opening_at_light(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    if mouth.is_two_way() || !mouth.is_ahead() || mouth.lanes() >= MOST_LANES {
+        return None;
+    }
+    let mouth = pen.straight(&mouth.clone().at_most(50.0), AFTER);
+    let length = pen.dice.between(SHORT_TAPER[0], SHORT_TAPER[1]);
+    let (wide, side) = opened(pen, &mouth, length);
+    let line = pen.straight(&wide, STORAGE);
+    let [beyond, _] = pen.light_behind(&line);
+    let off = pen.turning_off(&beyond, side, TURN, 20.0);
+    let lanes = beyond.lanes();
+    let rest = beyond.only(if side > 0.0 { 1..lanes } else { 0..lanes - 1 });
+    Some(Built { mouths: vec![pen.straight(&rest, AFTER), off], hazard: Some(Hazard::OpeningAtLight) })
+}
+
+/// Draws a further lane that opens over this length [m] on the left, or on the right; returns also its side, which is
+/// negative on the right.
+fn opened(pen: &mut Pen, mouth: &Mouth, length: f64) -> (Mouth, f64) {
+    let path = pen.gentle(mouth, length);
     let (lanes, width, ease) = (mouth.lanes(), mouth.lane_width(), pen.taper());
     let [left, right] = mouth.reach();
     let mut wider = mouth.clone();
     let mut offsets: Vec<f64> = mouth.knots.iter().map(|it| it.offset).collect();
-    if pen.dice.chance(0.4) {
+    let is_left = pen.dice.chance(0.4);
+    if is_left {
         wider.knots.insert(0, mouth.knots[0]);
         offsets.insert(0, left + width);
     } else {
@@ -55,8 +85,7 @@ pub(super) fn opening(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     }
     wider.spans = (0..=lanes).map(|it| Span { left: it, right: it + 1, ahead: mouth.is_ahead() }).collect();
     let wide = pen.draw(&Stretch::onward(&wider, path).to(&offsets, ease));
-    let hazard = if mouth.is_ahead() { Hazard::OpeningLane } else { Hazard::Taper };
-    Some(Built::road(pen.straight(&wide, BEFORE), hazard))
+    (wide, if is_left { 1.0 } else { -1.0 })
 }
 
 /// A lane of several has a square end; in the opposite direction, it begins with one.

@@ -2,9 +2,11 @@
 
 mod alignment;
 mod branch;
+mod bulge;
 mod dice;
 mod element;
 mod fork;
+mod gap;
 mod ground;
 mod grow;
 mod hazard;
@@ -12,11 +14,14 @@ mod junction;
 mod lane_end;
 mod merge;
 mod mouth;
+mod nested;
+mod queue;
 mod ramp;
 mod ring;
 mod shared;
 mod stretch;
 mod strip;
+mod weave;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -30,7 +35,7 @@ const FEWEST_HAZARDS: usize = 5;
 /// Minimum length of road [m].
 const LEAST_LENGTH: f64 = 600.0;
 /// Maximum of attempts. None of some hundred seeds needs as many.
-const ATTEMPTS: u64 = 64;
+const ATTEMPTS: u64 = 256;
 
 /// A random map.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,9 +63,10 @@ impl RandomMap {
         self.elements.iter().filter_map(|it| it.hazard).collect()
     }
 
-    fn is_enough(&self) -> bool {
+    /// Whether it has so many difficult elements, is so long [m], and can be entered.
+    fn is_enough(&self, fewest: usize, least_length: f64) -> bool {
         let hazards = self.elements.iter().filter(|it| it.hazard.is_some()).count();
-        hazards >= FEWEST_HAZARDS && self.length_m >= LEAST_LENGTH && self.has_clear_entrance()
+        hazards >= fewest && self.length_m >= least_length && self.has_clear_entrance()
     }
 
     /// Whether a vehicle can enter it at a place where the other direction does not need the same area.
@@ -79,6 +85,16 @@ impl RandomMap {
 
 /// Draws the random map of a seed, the same one on every machine. Traffic drives on the right.
 pub fn random(seed: u64) -> RandomMap {
-    let again = || (0..ATTEMPTS).map(|attempt| grow::grow(seed, attempt));
-    again().find(RandomMap::is_enough).unwrap_or_else(|| grow::grow(seed, 0))
+    let mut maps = attempts(seed, None);
+    maps.find(|it| it.is_enough(FEWEST_HAZARDS, LEAST_LENGTH)).unwrap_or_else(|| grow::grow(seed, 0, None))
+}
+
+/// Draws the random map of a seed with no other difficulty than `hazard`, as often as there is room for it.
+pub fn random_with(seed: u64, hazard: Hazard) -> RandomMap {
+    let only = Some(hazard);
+    attempts(seed, only).find(|it| it.is_enough(1, 0.0)).unwrap_or_else(|| grow::grow(seed, 0, only))
+}
+
+fn attempts(seed: u64, only: Option<Hazard>) -> impl Iterator<Item = RandomMap> {
+    (0..ATTEMPTS).map(move |attempt| grow::grow(seed, attempt, only))
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::element::Built;
 use super::hazard::Hazard;
-use super::junction::{Arm, new_arm, own_arm};
+use super::junction::{ARM, Arm, new_arm, own_arm};
 use super::mouth::{Mouth, onward};
 use super::stretch::Pen;
 use crate::ring::{Ring, RingArm, ring};
@@ -18,11 +18,24 @@ const SETBACK: f64 = 8.5;
 const TOUCH: [f64; 2] = [0.66, 0.52];
 /// Angle by which arms deviate from even directions [rad].
 const ASIDE: f64 = 0.08;
+/// Length of arms with hardly any room [m].
+const SHORT: [f64; 2] = [6.0, 15.0];
 /// The road before the roundabout [m].
 const BEFORE: [f64; 2] = [25.0, 60.0];
 
 /// A roundabout.
 pub(super) fn roundabout(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    let mouths = drawn(pen, mouth, ARM)?;
+    Some(Built { mouths, hazard: Some(Hazard::Roundabout) })
+}
+
+/// A roundabout whose arms begin at the edge of the map, with room for hardly more than one vehicle each.
+pub(super) fn short_arms(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
+    drawn(pen, mouth, SHORT)?;
+    Some(Built { mouths: Vec::new(), hazard: Some(Hazard::ShortArms) })
+}
+
+fn drawn(pen: &mut Pen, mouth: &Mouth, length: [f64; 2]) -> Option<Vec<Mouth>> {
     if !mouth.is_two_way() {
         return None;
     }
@@ -36,7 +49,7 @@ pub(super) fn roundabout(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
     for arm in 1..number {
         let aside = pen.dice.between(-ASIDE, ASIDE);
         let turn = arm as f64 * TAU / number as f64 - PI + aside;
-        let (arm, outer) = new_arm(pen, mouth, turn, [setback, setback])?;
+        let (arm, outer) = new_arm(pen, mouth, turn, [setback, setback], length)?;
         arms.push(arm);
         mouths.push(outer);
     }
@@ -45,5 +58,5 @@ pub(super) fn roundabout(pen: &mut Pen, mouth: &Mouth) -> Option<Built> {
         |it: Arm| RingArm { heading: it.heading, arriving: vec![it.arriving], leaving: vec![it.leaving] };
     let arms: Vec<RingArm> = arms.into_iter().map(arm).collect();
     ring(&mut pen.canvas, Ring { middle: (middle.x, middle.y), radius, touch, lanes: 1 }, &arms);
-    Some(Built { mouths, hazard: Some(Hazard::Roundabout) })
+    Some(mouths)
 }
