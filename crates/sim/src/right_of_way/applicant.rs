@@ -39,6 +39,11 @@ impl<'a> Applicant<'a> {
         }
     }
 
+    /// Whether its vehicle already stands within a zone.
+    pub(crate) fn is_within_a_zone(&self) -> bool {
+        self.reservation.is_some_and(|own| own.holds.iter().any(|it| it.enter < own.travelled))
+    }
+
     /// Time until its front is `distance` ahead [s].
     pub(crate) fn time_to(&self, distance: f64) -> f64 {
         time_to_cover(distance, self.speed, self.desired)

@@ -157,10 +157,14 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     // A roundabout clears itself: who waits on it, or on the way out, keeps out whoever waits to enter.
     let enters = || scene.reservations.roundabouts.is_entry(applicant.from.chain);
     let clears_it = |it: &WaitingTurn| it.enters && !asking.priority.is_patient && !enters();
+    // Nor does a junction lock if whoever stands within it comes before those who are out of patience outside.
+    let clears_junction =
+        |it: &WaitingTurn| !it.priority.is_patient && !it.is_within && applicant.is_within_a_zone();
     let waits_for = |it: &WaitingTurn| {
         goes_first(zone.precedence, other_side, it.priority, asking)
             && !is_out_before(scene, applicant, hold, it)
             && !clears_it(it)
+            && !clears_junction(it)
     };
     let is_first = goes_on_through(scene, applicant, hold);
     if !is_first && turn.is_some_and(|it| waits_for(&it)) {

@@ -30,10 +30,11 @@ pub(crate) fn turns(
     priority: WaitingPriority,
 ) -> impl Iterator<Item = (ZoneIndex, u8, WaitingTurn)> {
     let enters = scene.reservations.roundabouts.is_entry(applicant.from.chain);
+    let is_within = applicant.is_within_a_zone();
     let held_up = holds.iter().map(|it| held_up(scene, applicant, it, priority)).fold(0.0, f64::max);
     holds.iter().map(move |it| {
         let begins = held_up + arrival(scene, applicant, it);
-        (it.zone, it.side, WaitingTurn { priority, begins, enters })
+        (it.zone, it.side, WaitingTurn { priority, begins, enters, is_within })
     })
 }
 

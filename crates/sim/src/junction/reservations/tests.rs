@@ -149,7 +149,7 @@ fn a_further_reservation_goes_on_from_where_the_vehicle_is() {
 #[test]
 fn of_those_who_wait_on_one_side_the_impatient_then_the_longest_waiting_claims_the_turn() {
     let priority = |is_patient, since, id| WaitingPriority { is_patient, since, id, is_long: false };
-    let turn = |priority| WaitingTurn { priority, begins: 2.0, enters: false };
+    let turn = |priority| WaitingTurn { priority, begins: 2.0, enters: false, is_within: false };
     let mut reservations = of_one_zone();
     for it in [priority(true, 20, 1), priority(true, 10, 3), priority(true, 10, 2), priority(true, 30, 0)] {
         reservations.note_priority(ZONE, 0, turn(it));
