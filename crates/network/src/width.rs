@@ -8,6 +8,8 @@ use crate::lanelet::Lanelet;
 
 /// Width of a car, and of the widest long vehicle [m].
 const BODIES: [f64; 2] = [Class::Car.body().width, Class::Bus.body().width];
+/// Length of a car, and of a long vehicle [m].
+const LENGTHS: [f64; 2] = [Class::Car.body().length, Class::Bus.body().length];
 /// Widths are compared at stations this far apart [m].
 const STEP: f64 = 0.5;
 /// Every vehicle that can reach a lane that ends can leave it. This is the minimum length of road with lane changes,
@@ -38,6 +40,8 @@ pub(crate) fn note_open(chains: &mut [Chain], lanelets: &[Lanelet], [entrances, 
         let closes = chain.following.is_empty() && (leads_nowhere || !is_exit[index]);
         let left_by = chain.last_window().map_or(f64::NEG_INFINITY, |start| start + LEAST_WINDOW);
         chain.open = BODIES.map(|body| open(&widths, body, [opens, closes], left_by));
+        // Where a lane begins beside another one, a front is there once the whole body has room.
+        chain.open.iter_mut().zip(LENGTHS).for_each(|(open, length)| open[0] += length);
         let [from, until] = chain.open[1];
         let through = widths.iter().filter(|(station, _)| (from..=until).contains(station));
         chain.is_tight_for_long = through.map(|it| it.1).fold(f64::INFINITY, f64::min) < BODIES[1];
@@ -73,14 +77,24 @@ fn is_wide(chain: &Chain, lanelets: &[Lanelet]) -> bool {
     })
 }
 
-/// Stations of a chain, with its width there [m].
+/// Stations of a chain, with the width that vehicles have there [m].
 fn widths(chain: &Chain, lanelets: &[Lanelet]) -> Vec<(f64, f64)> {
     let pieces = (chain.length / STEP).ceil().max(1.0) as usize;
     let stations = (0..=pieces).map(|it| chain.length * it as f64 / pieces as f64);
     stations
         .map(|station| {
             let (lanelet, along) = chain.lanelet(station);
-            (station, lanelets[lanelet.at()].clear_width(along))
+            (station, room(lanelets, &lanelets[lanelet.at()], along))
         })
         .collect()
+}
+
+/// Width of a lanelet, `along` it, that long vehicles on the lanes beside leave free: where a lane is narrower than they
+/// are, they need a part of this one [m].
+fn room(lanelets: &[Lanelet], lanelet: &Lanelet, along: f64) -> f64 {
+    let share = along / lanelet.length();
+    let beside = [lanelet.adjacent_left, lanelet.adjacent_right].into_iter().flatten();
+    let widths = beside.map(|it| &lanelets[it.at()]).map(|it| it.clear_width(share * it.length()));
+    let driven = widths.filter(|it| (BODIES[0]..BODIES[1]).contains(it));
+    lanelet.clear_width(along) - driven.map(|it| BODIES[1] - it).fold(0.0, f64::max)
 }

@@ -2,7 +2,7 @@
 
 use laneweave_models::braking::stays_secure;
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, LightIndex, LightState, Precedence, Sign, Zone, ZoneKind};
+use laneweave_network::{ChainIndex, LightIndex, LightState, Precedence, Sign, Touch, Zone, ZoneKind};
 
 use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::ZoneReservation;
@@ -185,7 +185,7 @@ fn yield_to_earlier(
         match kind {
             ZoneKind::Merging(stations) => {
                 let to_merge = hold.leave - reservation.travelled;
-                let first = others.last().and_then(|it| leader_into(to_merge, hold, it));
+                let first = others.last().and_then(|it| leader_into(scene, to_merge, hold, it));
                 let beside = || beside(scene, hold, stations, to_merge);
                 let first = if is_round { nearer(first, beside()) } else { first };
                 if let Some(ahead) = first
@@ -225,10 +225,19 @@ fn beside(scene: &Scene, hold: &ZoneReservation, stations: [f64; 2], to_merge: f
 }
 
 /// The vehicle `other`, which goes first into the merge `to_merge` ahead [m], as a leader. Its gap follows from its
-/// distance to the merge. Drivers on another road see its speed, not its acceleration (ours).
-pub(crate) fn leader_into(to_merge: f64, hold: &ZoneReservation, other: &Reservation) -> Option<Ahead> {
+/// distance to the merge. Where lanes lead side by side through a bend, in which long vehicles touch, the outer one is
+/// longer: a metre on one counts as many as the zone is longer on the other. Drivers on another road see its speed, not
+/// its acceleration (ours).
+pub(crate) fn leader_into(
+    scene: &Scene,
+    to_merge: f64,
+    hold: &ZoneReservation,
+    other: &Reservation,
+) -> Option<Ahead> {
     let theirs = other.across(hold)?;
-    let gap = to_merge - (theirs.leave - other.travelled) - other.length;
+    let is_beside = scene.network.junctions.zones[hold.zone.at()].touch != Touch::Any;
+    let scale = if is_beside { (hold.leave - hold.enter) / (theirs.leave - theirs.enter) } else { 1.0 };
+    let gap = to_merge - scale * (theirs.leave - other.travelled + other.length);
     Some(Ahead::steady(gap, other.speed))
 }
 

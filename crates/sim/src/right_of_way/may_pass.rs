@@ -173,9 +173,9 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
     let mut others = others.filter(|(_, other)| matters(other.length >= LONG));
     let fits = match zone.kind {
-        ZoneKind::Merging(_) => {
-            others.next_back().is_none_or(|(_, other)| follows(applicant, hold, other, asking.clock.dt))
-        }
+        ZoneKind::Merging(_) => others
+            .next_back()
+            .is_none_or(|(_, other)| follows(scene, applicant, hold, other, asking.clock.dt)),
         ZoneKind::Crossing => others.all(|(_, other)| clears(scene, applicant, hold, other)),
     };
     fits && (is_first || accepts_lag(scene, applicant, hold, asking))
@@ -206,8 +206,14 @@ fn goes_first(precedence: Precedence, other_side: u8, priority: WaitingPriority,
 }
 
 /// Whether the gap behind `other`, which goes first into the merge, is large enough.
-fn follows(applicant: &Applicant, hold: &ZoneReservation, other: &Reservation, dt: f64) -> bool {
-    let Some(ahead) = leader_into(hold.leave, hold, other) else { return true };
+fn follows(
+    scene: &Scene,
+    applicant: &Applicant,
+    hold: &ZoneReservation,
+    other: &Reservation,
+    dt: f64,
+) -> bool {
+    let Some(ahead) = leader_into(scene, hold.leave, hold, other) else { return true };
     ahead.gap >= applicant.style.follow.jam_gap() && is_secure(applicant.speed, ahead, dt)
 }
 
@@ -217,7 +223,7 @@ pub(crate) fn leader_of(scene: &Scene, survey: &Survey) -> Option<Ahead> {
     let merges = survey.holds.iter().filter(|it| matches!(zone(it).kind, ZoneKind::Merging(_)));
     let last = |hold: &ZoneReservation| {
         let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-        others.map(|it| it.1).next_back().and_then(|other| leader_into(hold.leave, hold, other))
+        others.map(|it| it.1).next_back().and_then(|other| leader_into(scene, hold.leave, hold, other))
     };
     merges.filter_map(last).reduce(|a, b| if b.gap < a.gap { b } else { a })
 }

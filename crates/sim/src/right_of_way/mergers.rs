@@ -30,7 +30,7 @@ pub(crate) fn not_led_on<'a>(
         matches!(scene.network.junctions.zones[hold.zone.at()].kind, ZoneKind::Merging(_))
     };
     let stays = move |to_merge: f64, hold: &ZoneReservation, other: &Reservation| {
-        let ahead = leader_into(to_merge, hold, other);
+        let ahead = leader_into(scene, to_merge, hold, other);
         ahead.is_some_and(|it| it.gap + other.left().max(0.0) < clear - ROUNDING)
     };
     let asked = survey.holds.iter().filter(is_merge).flat_map(move |hold| {
