@@ -61,7 +61,7 @@ impl Network {
         let place = places(&chains, lanelets.len());
         link(&mut chains, &lanelets, &place);
         let chain_of: Vec<ChainIndex> = place.iter().map(|(chain, _)| *chain).collect();
-        let is_long = |it: LaneletIndex| lanelets[it.at()].length() >= MINIMUM_GATE_LENGTH;
+        let is_long = |it: LaneletIndex| chains[chain_of[it.at()].at()].length >= MINIMUM_GATE_LENGTH;
         let is_end = |it| is_end_of_a_road(&lanelets, &previous, it);
         let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty(), is_long);
         let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty(), is_end);

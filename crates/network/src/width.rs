@@ -77,24 +77,14 @@ fn is_wide(chain: &Chain, lanelets: &[Lanelet]) -> bool {
     })
 }
 
-/// Stations of a chain, with the width that vehicles have there [m].
+/// Stations of a chain, with its width there [m].
 fn widths(chain: &Chain, lanelets: &[Lanelet]) -> Vec<(f64, f64)> {
     let pieces = (chain.length / STEP).ceil().max(1.0) as usize;
     let stations = (0..=pieces).map(|it| chain.length * it as f64 / pieces as f64);
     stations
         .map(|station| {
             let (lanelet, along) = chain.lanelet(station);
-            (station, room(lanelets, &lanelets[lanelet.at()], along))
+            (station, lanelets[lanelet.at()].clear_width(along))
         })
         .collect()
-}
-
-/// Width of a lanelet, `along` it, that long vehicles on the lanes beside leave free: where a lane is narrower than they
-/// are, they need a part of this one [m].
-fn room(lanelets: &[Lanelet], lanelet: &Lanelet, along: f64) -> f64 {
-    let share = along / lanelet.length();
-    let beside = [lanelet.adjacent_left, lanelet.adjacent_right].into_iter().flatten();
-    let widths = beside.map(|it| &lanelets[it.at()]).map(|it| it.clear_width(share * it.length()));
-    let driven = widths.filter(|it| (BODIES[0]..BODIES[1]).contains(it));
-    lanelet.clear_width(along) - driven.map(|it| BODIES[1] - it).fold(0.0, f64::max)
 }

@@ -71,7 +71,7 @@ const ONE_WAY: [Builder; 35] = [
     weave::merge_then_exit,
     weave::crossing_exits,
     weave::crossing_exits,
-    fork::tiny_window,
+    fork::short_window,
     fork::tiny_window,
     fork::tiny_window,
     gap::gap,

@@ -12,7 +12,7 @@ use crate::network::Network;
 
 /// Length of the longest vehicle, width of the widest one and of a car [m]; contacts are found for these. Ours.
 pub(super) const LONGEST_VEHICLE: f64 = 12.0;
-const LONG_VEHICLE_WIDTH: f64 = 2.55;
+pub(super) const LONG_VEHICLE_WIDTH: f64 = 2.55;
 const CAR_WIDTH: f64 = 1.85;
 /// Space between vehicles whose paths cross at an angle, or bend: there their corners swing out [m]. Ours.
 const SPACE: f64 = 0.15;

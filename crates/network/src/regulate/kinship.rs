@@ -1,7 +1,8 @@
 //! How chains near each other are related: one after the other, forking off together, leading into one.
 
+use super::contact::{LONG_VEHICLE_WIDTH, LONGEST_VEHICLE};
 use super::fork::Fork;
-use crate::chain::ChainIndex;
+use crate::chain::{Chain, ChainIndex, Position};
 use crate::lanelet::Side;
 use crate::network::Network;
 
@@ -58,12 +59,21 @@ impl<'a> Kinship<'a> {
     }
 
     /// Whether lanes may be changed between these stations of two chains, at one of which a lane that begins or ends
-    /// beside the other is narrower than a long vehicle, or nearly at its end.
+    /// beside the other is narrower than a long vehicle somewhere along one, or nearly at its end.
     pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let chain = |it: ChainIndex| self.network.chain(it);
+        // Contacts are between the middles of vehicles.
+        let is_narrow = |it: ChainIndex, at: f64| {
+            [-0.5, 0.0, 0.5].iter().any(|part| {
+                let x = (at + part * LONGEST_VEHICLE).clamp(0.0, chain(it).length);
+                let (lanelet, along) = self.network.lanelet_at(Position::new(it, x));
+                lanelet.clear_width(along) < LONG_VEHICLE_WIDTH
+            })
+        };
         let is_partial = |it: ChainIndex, at: f64| {
-            let chain = chain(it);
-            !chain.is_open(at, true) || (chain.is_lane_drop() && at > chain.length - BEHIND)
+            let (chain, is_drop) = (chain(it), chain(it).is_lane_drop());
+            let is_end = is_drop && at > chain.length - BEHIND;
+            is_end || (is_drop || chain.open != Chain::WIDE) && is_narrow(it, at)
         };
         let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {
             let mut stretches = Side::BOTH.into_iter().flat_map(|side| chain(from).stretches(side));
