@@ -153,8 +153,13 @@ fn follow_route(
     if is_detour && me.lane_change.last_place < motion.x {
         outbox.note(scene, moment.clock, spot, DrivingEventKind::MissedTurn);
     }
-    let is_near = waypoint.last_place - motion.x < REACTS_WITHIN;
-    Concern { last_place: if is_near { waypoint.last_place } else { f64::INFINITY }, ..concern }
+    Concern { last_place: last_place(waypoint, motion.x), ..concern }
+}
+
+/// The last place for the next change on the route of a driver at `x` [m], infinite if that is so far ahead that it does
+/// not react to it yet.
+pub(crate) fn last_place(waypoint: &Waypoint, x: f64) -> f64 {
+    if waypoint.last_place - x < REACTS_WITHIN { waypoint.last_place } else { f64::INFINITY }
 }
 
 /// Whether a driver would pass its leader in the overtaking lane before its next turn, although it has to stay behind.

@@ -98,8 +98,11 @@ fn waits_for_a_user(scene: &Scene, at: Spot, survey: &Survey) -> bool {
 
 fn blocker(scene: &Scene, at: Spot, clock: Clock, survey: &mut Survey) -> Blocker {
     let from = scene.viewpoint(at);
-    let is_let_go =
-        || scene.reservation(at).is_some_and(|it| it.left() > 0.0) && look(scene, at).stop.is_none();
+    let is_let_go = || {
+        let junction = look(scene, at);
+        let stands = junction.leader.is_some_and(|it| it.ahead.speed < STANDSTILL);
+        scene.reservation(at).is_some_and(|it| it.left() > 0.0) && junction.stop.is_none() && !stands
+    };
     let on_way = || match scene.leader_spot(from) {
         Some(leader) => Blocker::Vehicle(leader),
         None if is_let_go() => Blocker::Nothing,

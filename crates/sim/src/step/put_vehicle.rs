@@ -1,5 +1,6 @@
 //! Vehicles come onto the road.
 
+use crate::driver::consider::last_place;
 use crate::driver::turn::next_turn;
 use crate::junction::reservations::NO_RESERVATION;
 use crate::record::lanelet_aggregates::Mark;
@@ -71,6 +72,7 @@ pub(super) fn entry(roads: &Roads, clock: Clock, vehicle: &Placement, id: Vehicl
     let motion = Kinematics { x, speed, acceleration: 0.0, headway_relaxation: 1.0, length, id };
     let due = next_turn(id, clock.step, clock.steps(style.attention.epoch));
     let desired = outlook.until_turn(at, speed, due, clock);
+    let last_place = last_place(&navigator.waypoint_from(network, destination, chain, x), x);
     let driver = DriverState {
         desired,
         limit_desired: desired,
@@ -83,7 +85,7 @@ pub(super) fn entry(roads: &Roads, clock: Clock, vehicle: &Placement, id: Vehicl
         phase: Phase::Cruises,
         is_shadow: false,
         in_emergency: false,
-        needs_full_update: false,
+        needs_full_update: last_place.is_finite(),
         is_external: false,
     };
     let lane_change = LaneChangeState {
@@ -98,7 +100,7 @@ pub(super) fn entry(roads: &Roads, clock: Clock, vehicle: &Placement, id: Vehicl
         record: 0,
         previous_lanes: PreviousLanes::NONE,
         counterpart: None,
-        last_place: f64::INFINITY,
+        last_place,
         lets_in: LaneChangeState::NOBODY,
         minds_offside: false,
         reservation: NO_RESERVATION,
