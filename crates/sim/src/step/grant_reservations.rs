@@ -3,7 +3,6 @@
 
 use laneweave_network::ZoneKind;
 
-use crate::demand::arrivals::Arrivals;
 use crate::driver::plan::{Outbox, RequestKind, ReservationRequest, Waiting};
 use crate::driver::request_reservation::surveyed;
 use crate::junction::need::{SPARE_SPACE, Survey};
@@ -14,7 +13,6 @@ use crate::right_of_way::may_pass::{Asking, may_pass};
 use crate::right_of_way::survey::stands_beyond;
 use crate::route::roads::Roads;
 use crate::state::traffic::Traffic;
-use crate::step::reserve_on_entering::priorities_at_entrances;
 use crate::step::wait_cycles::open_wait_cycles;
 use crate::step::work::Work;
 use crate::view::scene::{Scene, Spot};
@@ -35,12 +33,9 @@ pub(crate) fn grant_reservations(
     roads: &Roads,
     traffic: &mut Traffic,
     junctions: &mut JunctionState,
-    arrivals: &Arrivals,
     work: &mut Work,
 ) {
-    let Outbox { priorities, roundabouts, space_requests, survey, .. } = work.outbox();
-    let scene = Scene::of(roads, traffic, junctions);
-    priorities_at_entrances(&scene, arrivals, traffic.clock(), priorities, survey);
+    let Outbox { priorities, roundabouts, space_requests, .. } = work.outbox();
     let reservations = junctions.reservations_mut();
     reservations.clear_priorities();
     priorities.drain(..).for_each(|(zone, side, turn)| reservations.note_priority(zone, side, turn));

@@ -1,21 +1,18 @@
 //! Entrances within conflict areas: a vehicle enters the road there with a reservation of the zones in which it would
-//! stand.
+//! stand. Until then it holds nothing: nobody on the road waits for it.
 
 use laneweave_models::follow::Ahead;
-use laneweave_network::{Position, ZoneIndex, ZoneKind};
+use laneweave_network::{Position, ZoneKind};
 
-use crate::demand::arrivals::Arrivals;
 use crate::demand::source::{Arrival, Queue, Start};
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservations;
-use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::lets_go;
 use crate::right_of_way::may_pass::{Asking, PassHindrance, leader_of, may_pass};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
-use crate::right_of_way::turns::turns;
 use crate::route::fitting_speed::Outlook;
 use crate::state::clock::Clock;
 use crate::state::traffic::Traffic;
@@ -106,27 +103,6 @@ fn first_taken(scene: &Scene, surveyed: &Survey) -> f64 {
     };
     let taken = surveyed.holds.iter().filter(waits).map(|it| it.enter - BEFORE);
     taken.fold(f64::INFINITY, f64::min)
-}
-
-/// The turns of vehicles that wait to enter the road because of others.
-pub(crate) fn priorities_at_entrances(
-    scene: &Scene,
-    arrivals: &Arrivals,
-    clock: Clock,
-    priorities: &mut Vec<(ZoneIndex, u8, WaitingTurn)>,
-    out: &mut Survey,
-) {
-    let queues = arrivals.sources().iter().flat_map(|it| it.lanes());
-    for queue in queues {
-        let first = queue.first(arrivals.is_full());
-        let (Some(since), Some(first)) = (queue.asks_since, first) else { continue };
-        let applicant = applicant(scene, queue, &queue.waiting[first]);
-        let reach = WAITS_BEFORE + applicant.length + STANDS_BEFORE_A_ZONE;
-        if survey(scene, &applicant, [0.0, reach], |_, _| false, out) {
-            let priority = Asking::of(&applicant, since, clock).priority;
-            priorities.extend(turns(scene, &applicant, &out.holds, priority));
-        }
-    }
 }
 
 /// Grants the surveyed reservation to the vehicle that has just entered the road.

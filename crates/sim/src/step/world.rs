@@ -158,7 +158,7 @@ impl World {
         advance_reservations(junctions, work);
         transfer(roads, traffic, junctions, log, work);
         move_externals(roads, traffic, junctions, log, work);
-        grant_reservations(roads, traffic, junctions, arrivals, work);
+        grant_reservations(roads, traffic, junctions, work);
         resolve(roads, traffic, junctions, log, work);
         enter(roads, traffic, junctions, arrivals, log, work);
         guide(roads, traffic, arrivals);
