@@ -59,7 +59,8 @@ impl<'a> Kinship<'a> {
     }
 
     /// Whether lanes may be changed between these stations of two chains, at one of which a lane that begins or ends
-    /// beside the other is narrower than a long vehicle somewhere along one, or nearly at its end.
+    /// beside the other opens or narrows, and is narrower than a long vehicle somewhere along one, or is nearly at its
+    /// end.
     pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let chain = |it: ChainIndex| self.network.chain(it);
         // Contacts are between the middles of vehicles.
@@ -71,9 +72,10 @@ impl<'a> Kinship<'a> {
             })
         };
         let is_partial = |it: ChainIndex, at: f64| {
-            let (chain, is_drop) = (chain(it), chain(it).is_lane_drop());
-            let is_end = is_drop && at > chain.length - BEHIND;
-            is_end || (is_drop || chain.open != Chain::WIDE) && is_narrow(it, at)
+            let Chain { open: [_, [from, until]], length, .. } = *chain(it);
+            let is_end = chain(it).is_lane_drop() && at > length - BEHIND;
+            let half = 0.5 * LONGEST_VEHICLE;
+            is_end || !(from + half..=until - half).contains(&at) && is_narrow(it, at)
         };
         let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {
             let mut stretches = Side::BOTH.into_iter().flat_map(|side| chain(from).stretches(side));

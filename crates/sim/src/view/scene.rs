@@ -3,7 +3,7 @@
 use laneweave_models::Style;
 use laneweave_models::change::SIGHT;
 use laneweave_models::follow::Ahead;
-use laneweave_network::{ChainIndex, Class, LightIndex, LightState, Network, Reach};
+use laneweave_network::{ChainIndex, Class, LightIndex, LightState, Network};
 
 use crate::junction::reservations::{Reservation, Reservations};
 use crate::junction::signals::Signals;
@@ -77,6 +77,17 @@ pub struct Found {
     pub spot: Spot,
     /// Distance between its front bumper and the own one [m], positive.
     pub distance: f64,
+}
+
+/// The next vehicle on a driver's way.
+#[derive(Clone, Copy, Debug)]
+struct Leader {
+    spot: Spot,
+    /// From the driver's front to where the vehicle is in the way [m].
+    gap: f64,
+    /// Its rear is on the driver's way. If not, it is still on another road, and the place where that leads into the
+    /// driver's way is taken until the rear is there.
+    is_on_way: bool,
 }
 
 /// Range of the search for a follower [m].
@@ -253,23 +264,25 @@ impl<'a> Scene<'a> {
         let motions = self.motions(from.chain);
         match motions[from.ahead..].iter().find(|it| it.id != from.id) {
             Some(it) if from.x >= chain.fork_clearance => Some(it.ahead(it.rear() - from.x)),
-            _ => self.leader(from).map(|(spot, gap)| self.motion(spot).ahead(gap)),
+            _ => self.leader(from).map(|it| {
+                let ahead = self.motion(it.spot).ahead(it.gap);
+                if it.is_on_way { ahead } else { Ahead::standing(it.gap) }
+            }),
         }
     }
 
     /// The next vehicle within sight, on the route or beside it in a fork, wherever it comes from.
     pub fn leader_spot(&self, from: Viewpoint) -> Option<Spot> {
-        self.leader(from).map(|it| it.0)
+        self.leader(from).map(|it| it.spot)
     }
 
-    /// The leader within sight, and the gap to it [m].
-    fn leader(&self, from: Viewpoint) -> Option<(Spot, f64)> {
-        let mut found: Option<(Spot, f64)> = None;
+    fn leader(&self, from: Viewpoint) -> Option<Leader> {
+        let mut found: Option<Leader> = None;
         let mut first = from.ahead;
         for leg in self.walk(from).within(SIGHT) {
             let Leg { chain, start, .. } = leg;
             // A vehicle on a later chain may reach back to one that is found on another branch of a fork.
-            if found.is_some_and(|(_, gap)| gap + LONGEST < start) {
+            if found.is_some_and(|it| it.gap + LONGEST < start) {
                 break;
             }
             let lane = &self.lanes[chain.at()];
@@ -277,13 +290,15 @@ impl<'a> Scene<'a> {
             let on_way = place.map(|place| {
                 let index = first + place;
                 let (it, lane_change) = (&lane.motions()[index], &lane.lane_change_states()[index]);
-                let to_rear = || start + it.rear();
-                let gap =
-                    leg.before().map_or_else(to_rear, |before| self.gap_to(before, start, it, lane_change));
-                (Spot { chain, index }, gap)
+                let gap = start + it.rear();
+                let to_merge = leg.before().and_then(|before| self.to_merge(before, start, it, lane_change));
+                let merge = to_merge.filter(|it| *it > gap);
+                Leader { spot: Spot { chain, index }, gap: merge.unwrap_or(gap), is_on_way: merge.is_none() }
             });
-            let beside = self.beside_in_fork(leg, from).map(|(spot, rear)| (spot, start + rear));
-            found = nearest(found.into_iter().chain(on_way).chain(beside));
+            let beside = self.beside_in_fork(leg, from);
+            let beside = beside.map(|(spot, rear)| Leader { spot, gap: start + rear, is_on_way: true });
+            let all = found.into_iter().chain(on_way).chain(beside);
+            found = all.reduce(|a, b| if b.gap < a.gap { b } else { a });
             if on_way.is_some() {
                 break;
             }
@@ -292,26 +307,22 @@ impl<'a> Scene<'a> {
         found
     }
 
-    /// Gap to the vehicle `it`, whose chain starts `base` ahead [m]. If its rear is still on another route into that
-    /// chain, it is in the way only from the merge on.
-    fn gap_to(&self, chain: ChainIndex, base: f64, it: &Kinematics, lane_change: &LaneChangeState) -> f64 {
-        let gap = base + it.rear();
-        if it.rear() >= 0.0 {
-            return gap;
-        }
-        match lane_change.previous_lanes.last() {
-            Some(other) if other != chain => {
-                let junctions = &self.network.junctions;
-                let crossings = junctions.on(chain).crossings.iter();
-                let shared = crossings.filter(|it| junctions.other_side(**it).chain == other);
-                let merge = shared
-                    .map(|it| junctions.reach(*it))
-                    .find(|it| it.end >= self.network.chain(chain).length);
-                let to_merge = |reach: &Reach| base - self.network.chain(chain).length + reach.start;
-                gap.max(merge.map_or(gap, to_merge))
-            }
-            _ => gap,
-        }
+    /// Distance to the merge [m], if the rear of the vehicle `it`, whose chain starts `base` ahead, is still on another
+    /// route into that chain. It is in the way from the merge on, until its rear is there.
+    fn to_merge(
+        &self,
+        chain: ChainIndex,
+        base: f64,
+        it: &Kinematics,
+        lane_change: &LaneChangeState,
+    ) -> Option<f64> {
+        let other = lane_change.previous_lanes.last().filter(|other| it.rear() < 0.0 && *other != chain)?;
+        let junctions = &self.network.junctions;
+        let crossings = junctions.on(chain).crossings.iter();
+        let shared = crossings.filter(|it| junctions.other_side(**it).chain == other);
+        let reaches = shared.map(|it| junctions.reach(*it));
+        let merge = reaches.into_iter().find(|it| it.end >= self.network.chain(chain).length)?;
+        Some(base - self.network.chain(chain).length + merge.start)
     }
 
     /// The follower within sight.
