@@ -74,8 +74,7 @@ impl<'a> Kinship<'a> {
         let is_partial = |it: ChainIndex, at: f64| {
             let Chain { open: [_, [from, until]], length, .. } = *chain(it);
             let is_end = chain(it).is_lane_drop() && at > length - BEHIND;
-            let half = 0.5 * LONGEST_VEHICLE;
-            is_end || !(from + half..=until - half).contains(&at) && is_narrow(it, at)
+            is_end || !(from + BEHIND..=until - BEHIND).contains(&at) && is_narrow(it, at)
         };
         let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {
             let mut stretches = Side::BOTH.into_iter().flat_map(|side| chain(from).stretches(side));

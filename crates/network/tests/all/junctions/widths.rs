@@ -1,7 +1,8 @@
 //! Lanes between drawn borders: where they are wide enough to drive on, and whether narrow ones conflict.
 
 use laneweave_network::{
-    DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side, ZoneKind,
+    DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side, Touch,
+    ZoneKind,
 };
 
 /// Speed limit of all lanes [m/s].
@@ -112,6 +113,31 @@ fn lanes_side_by_side_of_2_60_m_do_not_get_in_each_others_way() {
         assert!(!chain.is_restricted, "as wide as the widest vehicle");
         assert_eq!(chain.stretches(side).len(), 1, "one may change lanes all along");
     }
+}
+
+#[test]
+fn lanes_that_are_narrow_far_from_where_one_of_them_opens_get_in_each_others_way() {
+    let mut lanes = vec![
+        eastward(1, [0.0, 100.0], 2.4, 3.3),
+        lanelet(2, &[(0.0, 2.4), (100.0, 2.4)], &[(0.0, 2.4), (100.0, -0.9)]),
+        eastward(3, [100.0, 400.0], 2.4, 2.4),
+        eastward(4, [100.0, 400.0], 0.0, 2.4),
+        eastward(5, [-50.0, 0.0], 2.4, 3.3),
+    ];
+    for (left, right) in [(0, 1), (2, 3)] {
+        lanes[left].right = Some(LaneletIndex(right as u32));
+        lanes[right].left = Some(LaneletIndex(left as u32));
+    }
+    for (index, next) in [(0, 2), (1, 3), (4, 0)] {
+        lanes[index].following = vec![LaneletIndex(next)];
+    }
+    let network = network(lanes);
+    let reaches = network.junctions.zones.iter().map(|it| (it.touch, it.sides.map(|side| side.end)));
+    let reaches: Vec<_> = reaches.collect();
+    assert!(
+        reaches.iter().any(|(touch, ends)| *touch == Touch::BothLong && ends.iter().all(|it| *it > 390.0)),
+        "{reaches:?}"
+    );
 }
 
 #[test]
