@@ -280,7 +280,8 @@ fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64
     let is_red = |it: &(LightIndex, f64)| it.1 > 0.0 && scene.light(it.0) != LightState::Green;
     let (_, at) = reservation.lights().find(is_red)?;
     let line = reservation.travelled + at;
-    let zone = reservation.zone_over(line);
+    // The place where its front would stand.
+    let zone = reservation.zone_over(line - ROOM_AT_A_STOP);
     let from = zone.map_or(line, |it| line.min(it - BEFORE_REVOKED));
     let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - reservation.travelled;
     let left = from - reservation.travelled;
