@@ -14,6 +14,9 @@ const STEPS: u32 = 100;
 /// Vehicles that are selected at once.
 const SELECTED: usize = 2;
 
+/// The work of a message that asks for little, as a measure of others.
+pub(crate) const LEAST_WORK: f64 = 1.0;
+
 /// What a page asks for: a message with one key.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -59,6 +62,19 @@ impl Asked {
         }
         let asked: Asked = serde_json::from_str(text).map_err(|error| error.to_string())?;
         asked.check().map(|()| asked)
+    }
+
+    /// How much work it makes, as a multiple of the least. Ours.
+    pub(crate) fn work(&self) -> f64 {
+        LEAST_WORK
+            * match self {
+                Asked::Step(steps) => 1.0 + f64::from(*steps) / 5.0,
+                Asked::Hand(_) | Asked::Undo(_) => 2.0,
+                Asked::Seek(_) => 10.0,
+                // The simulation is copied or written whole.
+                Asked::Twin(_) | Asked::Save(_) => 100.0,
+                _ => 1.0,
+            }
     }
 
     fn check(&self) -> Result<(), String> {

@@ -8,8 +8,10 @@
 mod asked;
 mod export;
 mod frame;
+mod message;
 mod recent;
 mod render;
+mod saves;
 mod scene;
 mod server;
 mod snapshot;

@@ -7,11 +7,12 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use laneweave::Fault;
-use serde::Serialize;
 use tokio::sync::{mpsc, watch};
 
 use crate::asked::Asked;
+use crate::message::{Found, Message};
 use crate::recent::Recent;
+use crate::saves::Saves;
 use crate::snapshot::{Colour, Snapshot};
 use crate::source::{Source, Wants};
 
@@ -26,6 +27,8 @@ const MARKS: Duration = Duration::from_secs(1);
 
 /// The number of a page that is connected.
 pub type PageId = u64;
+/// The number of no page: the program itself.
+pub const NO_PAGE: PageId = 0;
 
 /// Something that reaches the stage.
 #[derive(Debug)]
@@ -73,6 +76,7 @@ pub struct Stage {
     is_new: bool,
     /// When marks were last told, and up to which time they were known [s].
     marks_told: (Instant, f64),
+    saves: Saves,
 }
 
 impl Stage {
@@ -93,6 +97,7 @@ impl Stage {
             published: (0, now - PUBLISHES),
             is_new: true,
             marks_told: (now, -1.0),
+            saves: Saves::default(),
         }
     }
 
@@ -143,6 +148,8 @@ impl Stage {
             Request::Goes(id) => {
                 self.pages.remove(&id);
             }
+            // Who has gone needs nothing any more.
+            Request::Asks(id, _) if !self.is_there(id) => {}
             Request::Asks(id, asked) => {
                 let done = self.serve(id, asked);
                 if let Err(fault) = done {
@@ -153,6 +160,11 @@ impl Stage {
             Request::State(answer) => drop(answer.send((self.source.time_s(), self.source.state_hash()))),
             Request::End => {}
         }
+    }
+
+    /// Whether a page is still connected, as the program itself always is.
+    fn is_there(&self, id: PageId) -> bool {
+        id == NO_PAGE || self.pages.get(&id).is_some_and(|it| !it.says.is_closed())
     }
 
     fn welcome(&mut self, id: PageId, says: mpsc::Sender<Arc<str>>) {
@@ -199,6 +211,7 @@ impl Stage {
                 self.tell_all(&Message { twin: Some(self.source.twin_facts()), ..Message::default() });
             }
             Asked::Save(_) => {
+                self.saves.count_one(Instant::now())?;
                 self.carry_out();
                 let saved = Some(self.source.save()?);
                 self.tell(id, &Message { saved, ..Message::default() });
@@ -283,10 +296,11 @@ impl Stage {
         self.is_new = true;
     }
 
-    /// Tells what was done by hand, if that is new.
+    /// Tells what of that done by hand is new.
     fn tell_hands(&mut self) {
-        if self.source.has_news_of_hands() {
-            self.tell_all(&Message { hands: Some(self.source.hands()), ..Message::default() });
+        let hands = self.source.news_of_hands();
+        if hands.is_some() {
+            self.tell_all(&Message { hands, ..Message::default() });
         }
     }
 
@@ -343,54 +357,5 @@ impl Stage {
 
     fn tell_text(&mut self, text: &Arc<str>) {
         self.pages.retain(|_, it| it.says.try_send(Arc::clone(text)).is_ok());
-    }
-}
-
-/// What is said to pages. One of its fields is set.
-#[derive(Default, Serialize)]
-struct Message<'a> {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    hello: Option<crate::source::Hello>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    hands: Option<crate::source::Hands>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    put: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    saved: Option<crate::source::Saved>,
-    /// Nothing in it: no twin is shown.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    twin: Option<Option<crate::source::TwinFacts>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    found: Option<Found>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    marks: Option<&'a crate::source::Marks>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    refused: Option<Refused>,
-}
-
-#[derive(Serialize)]
-struct Found {
-    id: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    x: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    y: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct Refused {
-    what: String,
-    remedy: String,
-}
-
-impl Message<'_> {
-    fn refused(fault: &Fault) -> Message<'static> {
-        let Fault { place, what, remedy, .. } = fault;
-        let refused = Refused { what: format!("{place}: {what}"), remedy: remedy.clone() };
-        Message { refused: Some(refused), ..Message::default() }
-    }
-
-    fn text(&self) -> Arc<str> {
-        serde_json::to_string(self).unwrap_or_default().into()
     }
 }

@@ -3,6 +3,7 @@
 mod branch;
 mod check;
 mod compare;
+mod doorway;
 mod examples;
 mod explain;
 mod fit;

@@ -11,6 +11,7 @@ use laneweave::output::write_whole;
 use laneweave_studies::branch::Setting;
 use laneweave_viewer::{Server, Source, Token, export};
 
+use super::doorway::Doorway;
 use super::numbers::number;
 use super::say;
 use super::shown::Shown;
@@ -66,9 +67,7 @@ impl ViewArguments {
             Fault::new(format!("view: {address}"), error, "choose another --port or --address")
         })?;
         say(&format!("{}\nCtrl-C ends it.\n", server.url()))?;
-        if !self.no_browser && open::that_detached(server.url()).is_err() {
-            eprintln!("no browser could be opened: open this address yourself");
-        }
+        let _doorway = if self.no_browser { None } else { open_browser(&server.url()) };
         while !stop.is_raised() {
             thread::sleep(Duration::from_millis(50));
         }
@@ -89,4 +88,13 @@ impl ViewArguments {
         let size = text.len() as f64 / 1e6;
         say(&format!("{}: {size:.1} MB, plays in any browser\n", path.display()))
     }
+}
+
+/// Opens a browser, which is led to `address` for as long as the file that is returned is there.
+fn open_browser(address: &str) -> Option<Doorway> {
+    let opened = Doorway::to(address).and_then(|it| open::that_detached(it.path()).map(|()| it));
+    if opened.is_err() {
+        eprintln!("no browser could be opened: open this address yourself");
+    }
+    opened.ok()
 }

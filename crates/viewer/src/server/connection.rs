@@ -10,7 +10,8 @@ use tokio::sync::mpsc;
 use tokio::time::{Instant, timeout};
 
 use super::Shared;
-use crate::asked::Asked;
+use super::places::Place;
+use crate::asked::{Asked, LEAST_WORK};
 use crate::frame::{Slots, View};
 use crate::recent::Heard;
 use crate::snapshot::{Colour, Snapshot};
@@ -20,19 +21,16 @@ use crate::stage::{PageId, Request};
 const WAITING: usize = 512;
 /// A page that takes nothing for so long is cut off.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Messages of a page a second, on average and at once.
-const RATE: f64 = 200.0;
-const BURST: f64 = 400.0;
 
 /// Serves a page until one of both ends it.
-pub(super) async fn serve(mut socket: WebSocket, shared: &Arc<Shared>) {
+pub(super) async fn serve(mut socket: WebSocket, shared: &Arc<Shared>, place: Place) {
     let id: PageId = shared.next_page.fetch_add(1, Ordering::Relaxed);
     let (says, mut said) = mpsc::channel(WAITING);
     if !ask(shared, Request::Comes(id, says)) {
         return;
     }
     let mut snapshots = shared.snapshots.clone();
-    let mut page = Page::default();
+    let mut page = Page::at(place);
     loop {
         let can_draw = page.is_ready;
         let goes_on = tokio::select! {
@@ -94,11 +92,11 @@ struct Page {
     /// The events that it knows, or has missed.
     events: Heard,
     lanes: Option<Arc<str>>,
-    allowance: Allowance,
+    place: Place,
 }
 
-impl Default for Page {
-    fn default() -> Page {
+impl Page {
+    fn at(place: Place) -> Page {
         Page {
             slots: Slots::default(),
             view: View::ALL,
@@ -112,23 +110,8 @@ impl Default for Page {
             clock: None,
             events: Heard::default(),
             lanes: None,
-            allowance: Allowance { left: BURST, at: Instant::now() },
+            place,
         }
-    }
-}
-
-/// How many messages a page may still send.
-struct Allowance {
-    left: f64,
-    at: Instant,
-}
-
-impl Allowance {
-    fn takes_one(&mut self) -> bool {
-        let now = Instant::now();
-        self.left = (self.left + RATE * (now - self.at).as_secs_f64()).min(BURST) - 1.0;
-        self.at = now;
-        self.left >= 0.0
     }
 }
 
@@ -147,14 +130,18 @@ impl Page {
     async fn take(&mut self, message: Message, id: PageId, shared: &Shared, socket: &mut WebSocket) -> bool {
         let text = match message {
             Message::Text(text) => text,
-            Message::Ping(_) | Message::Pong(_) if self.allowance.takes_one() => return true,
+            Message::Ping(_) | Message::Pong(_) if self.place.allows(LEAST_WORK, Instant::now()) => {
+                return true;
+            }
             Message::Close(_) => return false,
             _ => return close(socket, close_code::UNSUPPORTED, "messages are texts").await,
         };
-        if !self.allowance.takes_one() {
-            return close(socket, close_code::POLICY, "too many messages").await;
+        let asked = Asked::read(&text);
+        let work = asked.as_ref().map_or(LEAST_WORK, Asked::work);
+        if !self.place.allows(work, Instant::now()) {
+            return close(socket, close_code::POLICY, "too much work at once").await;
         }
-        let asked = match Asked::read(&text) {
+        let asked = match asked {
             Ok(asked) => asked,
             Err(what) => return close(socket, close_code::POLICY, &what).await,
         };

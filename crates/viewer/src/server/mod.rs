@@ -3,41 +3,40 @@
 
 mod connection;
 mod guard;
+mod hall;
+mod places;
 
 use std::io;
 use std::net::SocketAddr;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, mpsc};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use axum::Router;
 use axum::extract::{Query, State, WebSocketUpgrade};
 use axum::http::{StatusCode, header};
 use axum::middleware;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use axum::{Extension, Router};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use serde::Deserialize;
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
+use tokio::time::Instant;
 
 use crate::PAGE;
 use crate::asked::{Asked, LONGEST};
 use crate::snapshot::Snapshot;
 use crate::source::Source;
-use crate::stage::{PageId, Request, Stage};
+use crate::stage::{NO_PAGE, Request, Stage};
 
 pub use guard::{Address, Token};
+use hall::{Hall, Visit};
+use places::Places;
 
-/// Connections at the same time.
-const CONNECTIONS: usize = 64;
-/// Pages at the same time.
-const PAGES: usize = 16;
-/// The number of no page: the program itself.
-const NO_PAGE: PageId = 0;
 /// Requests that wait for the stage.
 const REQUESTS: usize = 4096;
 /// A client that needs longer for the head of a request is cut off.
@@ -64,7 +63,7 @@ struct Shared {
     requests: mpsc::SyncSender<Request>,
     snapshots: watch::Receiver<Arc<Snapshot>>,
     next_page: AtomicU64,
-    pages: AtomicUsize,
+    places: Arc<Places>,
 }
 
 impl Server {
@@ -87,7 +86,7 @@ impl Server {
             requests: requests.clone(),
             snapshots,
             next_page: AtomicU64::new(1),
-            pages: AtomicUsize::new(0),
+            places: Places::new(Instant::now()),
         });
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (stop, stopped) = watch::channel(false);
@@ -144,7 +143,7 @@ impl Drop for Server {
 /// Accepts connections, each with its own task, until the server stops.
 async fn accept(listener: TcpListener, shared: &Arc<Shared>, mut stopped: watch::Receiver<bool>) {
     let app = router(shared);
-    let room = Arc::new(Semaphore::new(CONNECTIONS));
+    let hall = Hall::new();
     loop {
         let accepted = tokio::select! {
             accepted = listener.accept() => accepted,
@@ -155,12 +154,7 @@ async fn accept(listener: TcpListener, shared: &Arc<Shared>, mut stopped: watch:
             tokio::time::sleep(Duration::from_millis(20)).await;
             continue;
         };
-        let Ok(place) = Arc::clone(&room).try_acquire_owned() else { continue };
-        let app = app.clone();
-        tokio::spawn(async move {
-            serve(stream, app).await;
-            drop(place);
-        });
+        hall.receive(|visit| serve(stream, app.clone().layer(Extension(visit))));
     }
 }
 
@@ -198,34 +192,40 @@ async fn page() -> Response {
     ([(header::CONTENT_TYPE, "text/html; charset=utf-8")], PAGE).into_response()
 }
 
-async fn scene(State(shared): State<Arc<Shared>>, Query(asks): Query<Asks>) -> Response {
+/// The answer to a visit that may have nothing, or for which there is no room; none if it may.
+fn turned_away(shared: &Shared, asks: &Asks, visit: &Visit) -> Option<Response> {
     if !shared.token.is(&asks.token) {
-        return guard::refused();
+        return Some(guard::refused());
     }
-    ([(header::CONTENT_TYPE, "application/json")], shared.scene.clone()).into_response()
+    (!visit.shows_token()).then(|| too_many("connections"))
+}
+
+fn too_many(what: &str) -> Response {
+    (StatusCode::SERVICE_UNAVAILABLE, format!("too many {what}: close one of them")).into_response()
+}
+
+async fn scene(
+    State(shared): State<Arc<Shared>>,
+    Extension(visit): Extension<Arc<Visit>>,
+    Query(asks): Query<Asks>,
+) -> Response {
+    turned_away(&shared, &asks, &visit).unwrap_or_else(|| {
+        ([(header::CONTENT_TYPE, "application/json")], shared.scene.clone()).into_response()
+    })
 }
 
 async fn live(
     State(shared): State<Arc<Shared>>,
+    Extension(visit): Extension<Arc<Visit>>,
     Query(asks): Query<Asks>,
     upgrade: WebSocketUpgrade,
 ) -> Response {
-    if !shared.token.is(&asks.token) {
-        return guard::refused();
+    if let Some(answer) = turned_away(&shared, &asks, &visit) {
+        return answer;
     }
-    if shared.pages.fetch_add(1, Ordering::Relaxed) >= PAGES {
-        shared.pages.fetch_sub(1, Ordering::Relaxed);
-        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages: close one of them").into_response();
-    }
-    let leaving = Arc::clone(&shared);
+    let Some(place) = shared.places.take(Instant::now()) else { return too_many("pages") };
     upgrade
         .max_message_size(LONGEST)
         .max_frame_size(LONGEST)
-        .on_failed_upgrade(move |_| {
-            leaving.pages.fetch_sub(1, Ordering::Relaxed);
-        })
-        .on_upgrade(move |socket| async move {
-            connection::serve(socket, &shared).await;
-            shared.pages.fetch_sub(1, Ordering::Relaxed);
-        })
+        .on_upgrade(move |socket| async move { connection::serve(socket, &shared, place).await })
 }

@@ -1,6 +1,6 @@
 //! A simulation that runs now, and that a user changes by hand.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem::discriminant;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
@@ -31,7 +31,11 @@ pub struct Live {
     /// All commands that were carried out.
     given: Vec<Commanded>,
     done: Vec<Done>,
-    /// What was done or set is not told yet.
+    /// Those of `done` that are new or have changed since they were told, by their places.
+    untold: BTreeSet<usize>,
+    /// What was set, as it was told.
+    told: BTreeMap<Target, Hand>,
+    /// Something may be set that is not told yet.
     has_news: bool,
     /// The unchanged twin and its begin [s], if somebody wants one.
     twin: Option<(f64, Box<Driven>)>,
@@ -46,8 +50,18 @@ impl Live {
     /// If something is missing, not readable, or invalid.
     pub fn new(scenario: &Scenario, origin: &Origin, dir: PathBuf) -> Result<Live, Fault> {
         let driven = Driven::new(scenario, origin)?;
-        let (touched, given, done) = (BTreeSet::new(), Vec::new(), Vec::new());
-        Ok(Live { driven, waits: false, touched, given, done, has_news: false, twin: None, dir })
+        Ok(Live {
+            driven,
+            waits: false,
+            touched: BTreeSet::new(),
+            given: Vec::new(),
+            done: Vec::new(),
+            untold: BTreeSet::new(),
+            told: BTreeMap::new(),
+            has_news: false,
+            twin: None,
+            dir,
+        })
     }
 
     /// Gives a command before the next step, in place of those that wait and contradict it.
@@ -101,16 +115,18 @@ impl Live {
         let same = |it: &&mut Done| !it.is_undone && at - it.at < ONE_ACT && is_same(&it.command, &command);
         if let Some(last) = self.done.last_mut().filter(same) {
             (last.text, last.command, last.at) = (last.to_what.clone() + &how, command, at);
+            self.untold.insert(last.number - 1);
             return;
         }
         let (number, time_s) = (self.done.len() + 1, self.driven.time_s());
         let text = format!("{to_what}{how}");
+        self.untold.insert(self.done.len());
         self.done.push(Done { number, time_s, text, is_undone: false, to_what, command, back, at });
     }
 
     /// What was set, as it is now.
-    fn set(&self) -> Vec<Hand> {
-        self.touched.iter().filter_map(|it| Hand::setting(it, &self.driven.simulation)).collect()
+    fn set(&self) -> impl Iterator<Item = (&Target, Hand)> {
+        self.touched.iter().filter_map(|it| Some((it, Hand::setting(it, &self.driven.simulation)?)))
     }
 }
 
@@ -213,6 +229,7 @@ impl Source for Live {
         };
         self.give(&self.without_old_change(back))?;
         self.done[index].is_undone = true;
+        self.untold.insert(index);
         self.has_news = true;
         Ok(())
     }
@@ -228,11 +245,20 @@ impl Source for Live {
     }
 
     fn hands(&self) -> Hands {
-        Hands { done: self.done.clone(), set: self.set() }
+        Hands { done: self.done.clone(), set: self.set().map(|(_, it)| it).collect() }
     }
 
-    fn has_news_of_hands(&mut self) -> bool {
-        std::mem::take(&mut self.has_news)
+    fn news_of_hands(&mut self) -> Option<Hands> {
+        if !std::mem::take(&mut self.has_news) {
+            return None;
+        }
+        let done = std::mem::take(&mut self.untold).into_iter().map(|it| self.done[it].clone()).collect();
+        let is_new = |(target, it): &(&Target, Hand)| self.told.get(target) != Some(it);
+        let news: Vec<(Target, Hand)> =
+            self.set().filter(is_new).map(|(target, it)| (target.clone(), it)).collect();
+        self.told.extend(news.iter().cloned());
+        let hands = Hands { done, set: news.into_iter().map(|(_, it)| it).collect() };
+        (!hands.done.is_empty() || !hands.set.is_empty()).then_some(hands)
     }
 
     fn save(&self) -> Result<Saved, Fault> {

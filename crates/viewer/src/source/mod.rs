@@ -220,8 +220,8 @@ pub trait Source: Send {
     /// What was done by hand so far, and what is set by it.
     fn hands(&self) -> Hands;
 
-    /// Whether this has changed since the last call.
-    fn has_news_of_hands(&mut self) -> bool;
+    /// What of this is new or has changed since the last call, if anything has.
+    fn news_of_hands(&mut self) -> Option<Hands>;
 
     /// Writes the scenario with all that was done by hand.
     ///

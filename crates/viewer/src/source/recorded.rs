@@ -282,8 +282,8 @@ impl Source for Recorded {
         Hands::default()
     }
 
-    fn has_news_of_hands(&mut self) -> bool {
-        false
+    fn news_of_hands(&mut self) -> Option<Hands> {
+        None
     }
 
     fn save(&self) -> Result<Saved, Fault> {

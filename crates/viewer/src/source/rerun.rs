@@ -211,8 +211,8 @@ impl Source for Rerun {
         Hands::default()
     }
 
-    fn has_news_of_hands(&mut self) -> bool {
-        false
+    fn news_of_hands(&mut self) -> Option<Hands> {
+        None
     }
 
     fn save(&self) -> Result<Saved, Fault> {

@@ -169,10 +169,10 @@ fn what_is_set_is_known_as_it_is_now_whoever_set_it() {
     let offset = |offset_s| Hand::SetOffset { light: light.clone(), offset_s };
     let red = |shows| Hand::SetLight { light: light.clone(), shows };
     let planned = scene(&live)["lights"][0]["plan"]["offset_s"].as_f64().expect("the offset of its plan");
-    assert!(live.hands().set.is_empty() && !live.has_news_of_hands());
+    assert!(live.hands().set.is_empty() && live.news_of_hands().is_none());
     live.hand(&offset(20.0)).expect("another offset");
     live.hand(&red(Some(LightState::Red))).expect("a red light");
-    assert!(live.has_news_of_hands() && !live.has_news_of_hands());
+    assert!(live.news_of_hands().is_some() && live.news_of_hands().is_none());
     // Before the step and after it.
     for _ in 0..2 {
         let set = live.hands().set;
@@ -190,7 +190,8 @@ fn what_is_set_is_known_as_it_is_now_whoever_set_it() {
     let (scenario, origin) = Origin::open(&saved).expect("the saved scenario");
     let mut again = Live::new(&scenario, &origin, dir.clone()).expect("a simulation");
     steps(&mut again, 4);
-    assert!(again.has_news_of_hands() && again.hands().set.contains(&offset(30.0)));
+    assert!(again.news_of_hands().is_some_and(|it| it.set.contains(&offset(30.0))));
+    assert!(again.hands().set.contains(&offset(30.0)));
     let _ = std::fs::remove_dir_all(dir);
 }
 

@@ -5,4 +5,5 @@ mod pictures;
 mod replays;
 mod rerun;
 mod served;
+mod stage;
 mod twins;

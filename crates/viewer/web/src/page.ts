@@ -1,4 +1,5 @@
 import type { Feed } from './feed/feed.ts';
+import { withNews } from './hands.ts';
 import { closedBy } from './settings.ts';
 import { listenToKeys } from './keys.ts';
 import { dress } from './overlays/dress.ts';
@@ -18,7 +19,7 @@ import { Toasts } from './panels/toasts.ts';
 import { Toolbar } from './panels/toolbar.ts';
 import { TwinChoice } from './panels/twin_choice.ts';
 import { VehicleActions } from './panels/vehicle_actions.ts';
-import type { Found, ServerMessage, TrafficEvent } from './protocol/messages.ts';
+import type { Found, Hands, ServerMessage, TrafficEvent } from './protocol/messages.ts';
 import type { Scene } from './protocol/scene.ts';
 import { localise } from './road/localise.ts';
 import { Stage } from './stage/stage.ts';
@@ -140,7 +141,11 @@ export class Page {
     if (message.refused) state.refused.tell(message.refused);
   }
 
-  private hearOfHands({ done, set }: NonNullable<ServerMessage['hands']>): void {
+  private hearOfHands(news: Hands): void {
+    this.knowHands(withNews({ done: this.state.done.value, set: this.state.set.value }, news));
+  }
+
+  private knowHands({ done, set }: Hands): void {
     this.state.done.set(done);
     this.state.set.set(set);
     this.state.closed.set(closedBy(set));
@@ -150,6 +155,7 @@ export class Page {
   private begin(hello: NonNullable<ServerMessage['hello']>): void {
     const { state } = this;
     this.view?.restart();
+    this.knowHands({ done: [], set: [] });
     state.hello.set(hello);
     if (state.selected.value.length > 0) state.say({ select: state.selected.value });
     // What has not begun yet begins; what somebody has stopped stays as it is.

@@ -4,6 +4,43 @@ use std::fs;
 
 use crate::command::program::at_home;
 
+/// What opens a browser is given no secret: everybody on the machine can read its arguments.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_token_stands_in_the_arguments_of_no_process() {
+    use std::io::{BufRead, BufReader};
+    use std::os::unix::fs::PermissionsExt;
+    use std::process::{Command, Stdio};
+
+    let opener = "#!/bin/sh\ncp -p \"$1\" led.html\necho \"$@\" > given.partial\nmv given.partial given\n";
+    let folder = at_home().with("xdg-open", opener);
+    let executable = fs::Permissions::from_mode(0o755);
+    fs::set_permissions(folder.path().join("xdg-open"), executable).expect("a program");
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").expect("a path"));
+    let mut view = Command::new(env!("CARGO_BIN_EXE_laneweave"))
+        .args(["view", "maps/ramps.osm"])
+        .current_dir(folder.path())
+        .env("PATH", path)
+        .env("TMPDIR", folder.path())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("a server");
+    let mut address = String::new();
+    BufReader::new(view.stdout.take().expect("its output")).read_line(&mut address).expect("an address");
+    let (_, token) = address.trim().split_once("?token=").expect("a token");
+    while !folder.holds("given") {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let given = folder.read("given");
+    assert!(!given.contains(token), "{given}");
+    assert!(folder.read("led.html").contains(&format!("url={}\"", address.trim())));
+    let mode = |path: &str| fs::metadata(path).expect("a file").permissions().mode() & 0o777;
+    assert_eq!(mode(given.trim()), 0o600);
+    let ended = Command::new("kill").args(["-INT", &view.id().to_string()]).status();
+    assert!(ended.expect("a signal").success() && view.wait().expect("an end").success());
+    assert!(!fs::exists(given.trim()).expect("a folder"), "it goes with the program");
+}
+
 #[test]
 fn pictures_are_numbered_and_png_files() {
     let folder = at_home();

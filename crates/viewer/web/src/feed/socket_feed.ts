@@ -1,6 +1,7 @@
 import type { PageMessage, ServerMessage } from '../protocol/messages.ts';
 import type { Scene } from '../protocol/scene.ts';
 import type { Feed, FeedListener } from './feed.ts';
+import { takeToken } from './token.ts';
 
 const FIRST_RETRY_S = 0.5;
 const LONGEST_RETRY_S = 10;
@@ -14,7 +15,7 @@ export class SocketFeed implements Feed {
   private hasScene = false;
   /** Whether the last connection was open; if not, another server may be there now. */
   private wasOpen = true;
-  private readonly token = new URLSearchParams(location.search).get('token') ?? '';
+  private readonly token = takeToken(window);
 
   start(listener: FeedListener): void {
     this.listener = listener;

@@ -121,6 +121,12 @@ export interface HandEntry {
   is_undone: boolean;
 }
 
+/** What was done by hand and is set by it; after the first message, what of this is new or has changed. */
+export interface Hands {
+  done: HandEntry[];
+  set: Hand[];
+}
+
 /** The twin that is shown beside the traffic. */
 export interface Twin {
   since_s: number;
@@ -155,7 +161,7 @@ export interface ServerMessage {
   events?: TrafficEvent[];
   marks?: Marks;
   lanes?: LaneMeasure[];
-  hands?: { done: HandEntry[]; set: Hand[] };
+  hands?: Hands;
   put?: string;
   saved?: Saved;
   twin?: Twin | null;
