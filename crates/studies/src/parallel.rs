@@ -26,7 +26,8 @@ pub fn in_parallel<Job: Sync, Done: Send>(
     };
     thread::scope(|scope| {
         for _ in 1..threads {
-            scope.spawn(take);
+            // What does not start is done by the others.
+            let _ = thread::Builder::new().spawn_scoped(scope, take);
         }
         take();
     });

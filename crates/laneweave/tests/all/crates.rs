@@ -7,7 +7,7 @@ use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
 const LEVELS: [&[&str]; 12] = [
-    &["network", "models", "study", "test-data"],
+    &["network", "models", "pool", "study", "test-data"],
     &["maps", "sim"],
     &["generate", "recordings"],
     &["recorded"],

@@ -7,7 +7,7 @@ use std::thread::available_parallelism;
 use laneweave_maps::{Graph, Map, Problem, Size, regulations};
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_sim::{Place, Places, Setup, World};
+use laneweave_sim::{Place, Places, Setup, World, WorldError};
 
 use super::basis::Basis;
 use super::demand::{Amount, check_ways, demand};
@@ -175,7 +175,7 @@ fn prepare_with(
         let demand = demand(scenario, origin, network, places.clone(), shares.clone(), amount)?;
         let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
         World::new(Arc::clone(network), driver_parameters.clone(), demand, setup)
-            .map_err(|error| Fault::new(scenario.map.display(), error, "correct it"))
+            .map_err(|error| unbuilt(scenario, origin, &error))
     };
     let measured = [0.0, scenario.run.duration_s].map(|it| scenario.run.warmup_s + it);
     let queues = Queues::new(&Population::by_speed(&mixture), scenario.demand.fleet(), network.law);
@@ -377,4 +377,15 @@ fn threads(scenario: &Scenario, origin: &Origin, records: bool) -> Result<usize,
         return Err(Fault::new(place, format!("{threads} threads"), format!("choose 1 to {MOST_THREADS}")));
     }
     Ok(threads)
+}
+
+/// Why there is no world.
+pub(super) fn unbuilt(scenario: &Scenario, origin: &Origin, error: &WorldError) -> Fault {
+    match error {
+        WorldError::Threads { .. } => {
+            let remedy = "choose fewer, or close other programs";
+            Fault::new(origin.place(&["run", "threads"]), error, remedy)
+        }
+        _ => Fault::new(scenario.map.display(), error, "correct it"),
+    }
 }

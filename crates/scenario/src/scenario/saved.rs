@@ -2,7 +2,7 @@
 
 use laneweave_sim::{CheckpointError, Setup, World, sealed, unsealed};
 
-use super::prepare::{driving, equipped};
+use super::prepare::{driving, equipped, unbuilt};
 use super::{Origin, Prepared, Scenario};
 use crate::fault::Fault;
 use crate::script::State;
@@ -23,7 +23,7 @@ impl Prepared {
         let setup = Setup { step: scenario.run.step_s, seed, threads: self.threads };
         let (network, demand) = (self.world.shared_network(), self.world.demand().clone());
         let world = World::new(network, driving(scenario, driver_parameters), demand, setup)
-            .map_err(|error| Fault::bug(scenario.map.display(), error))?;
+            .map_err(|error| unbuilt(scenario, origin, &error))?;
         self.world = equipped(world, self.warmup_steps, scenario, origin)?;
         self.script = self.script.restarted(seed);
         Ok(())

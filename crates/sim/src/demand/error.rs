@@ -64,4 +64,12 @@ pub enum WorldError {
         /// Number of chains.
         chains: usize,
     },
+    /// The system does not start so many threads.
+    #[error("{threads} threads cannot be started: {why}")]
+    Threads {
+        /// Number of threads.
+        threads: usize,
+        /// What the system says.
+        why: String,
+    },
 }

@@ -9,7 +9,7 @@
 //! * `externals.rs`, `move_externals.rs`, `relocate.rs`, `obstacle.rs` and `show_rears.rs` the vehicles that users
 //!   drive; `see_standing.rs` what others know of them; `recorded.rs` those that a recording moves; `put_obstacle.rs`
 //!   what stands on the road and is no vehicle
-//! * `pool.rs` and `work.rs` the threads and their memory
+//! * `work.rs` the threads and their memory
 //! * `checkpoint.rs` and `seal.rs` the state of a world as bytes
 //! * `queries.rs`, `columns.rs`, `vehicle.rs` and `index.rs` what a world tells of itself
 
@@ -36,7 +36,6 @@ pub(crate) mod note_incidents;
 pub(crate) mod note_milestones;
 pub(crate) mod obstacle;
 pub(crate) mod place_vehicle;
-pub(crate) mod pool;
 pub(crate) mod put_obstacle;
 pub(crate) mod put_vehicle;
 pub(crate) mod queries;

@@ -24,7 +24,7 @@ pub(crate) fn move_all(
     is_watched: bool,
 ) {
     let Work { plans, outboxes, pools } = work;
-    let pool = &pools[pool_for(traffic.crowd())];
+    let pool = &mut pools[pool_for(traffic.crowd())];
     let Moving { clock, lanes, chosen, externals } = traffic.moving();
     let (network, navigator, driver_parameters) =
         (roads.network(), roads.navigator(), roads.driver_parameters());

@@ -1,10 +1,12 @@
 //! The buffers and threads of a step.
 
+use std::io;
+
 use laneweave_network::ChainIndex;
+use laneweave_pool::Pool;
 
 use crate::driver::plan::{Outbox, Plan};
 use crate::record::counters::Counters;
-use crate::step::pool::Pool;
 
 /// The buffers and threads of a step, kept from one step to the next.
 pub(crate) struct Work {
@@ -18,12 +20,15 @@ pub(crate) struct Work {
 
 impl Work {
     /// The work of `threads` threads on `chains` chains.
-    pub(crate) fn new(chains: usize, threads: usize) -> Work {
-        Work {
+    ///
+    /// # Errors
+    /// If the system does not start so many threads.
+    pub(crate) fn new(chains: usize, threads: usize) -> io::Result<Work> {
+        Ok(Work {
             plans: (0..chains).map(|_| Plan::default()).collect(),
             outboxes: (0..threads.max(1)).map(|_| Outbox::default()).collect(),
-            pools: [Pool::new(threads), Pool::new(1)],
-        }
+            pools: [Pool::new(threads)?, Pool::new(1)?],
+        })
     }
 
     /// The outbox of all threads, after it was gathered.

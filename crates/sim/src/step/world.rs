@@ -56,8 +56,8 @@ impl World {
     /// An empty world on `network`, whose drivers come from `demand` with the given `driver_parameters`.
     ///
     /// # Errors
-    /// If the step is not between 0.01 and 1 s, there are no driver parameters, the demand is not valid, or it has
-    /// too many destinations.
+    /// If the step is not between 0.01 and 1 s, there are no driver parameters, the demand is not valid, it has too
+    /// many destinations, or the system does not start so many threads.
     pub fn new(
         network: impl Into<Arc<Network>>,
         driver_parameters: Vec<Style>,
@@ -84,10 +84,13 @@ impl World {
         let traffic = Traffic::new(network.chains.len(), setup.step);
         let ends = (&demand.destinations[..], demand.stops);
         let roads = Roads::new(network, driver_parameters, ends, restrictions, Random::new(setup.seed));
+        let threads = setup.threads;
+        let work = Work::new(roads.network().chains.len(), threads)
+            .map_err(|error| WorldError::Threads { threads, why: error.to_string() })?;
         Ok(World {
             junctions: JunctionState::new(roads.network(), traffic.clock()),
             arrivals: Arrivals::new(&roads, demand),
-            work: Work::new(roads.network().chains.len(), setup.threads),
+            work,
             log: Log::default(),
             commands: Commands::default(),
             index: Index::default(),

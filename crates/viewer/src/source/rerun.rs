@@ -70,7 +70,9 @@ impl Rerun {
             is_over: Arc::default(),
         };
         let shared = (Arc::clone(&rerun.states), Arc::clone(&rerun.marks), Arc::clone(&rerun.is_over));
-        thread::spawn(move || look(survey, last_step, &shared));
+        let look = move || look(survey, last_step, &shared);
+        let looking = thread::Builder::new().name("looking".into()).spawn(look);
+        looking.map_err(|error| Fault::new("view", error, "close other programs, and try again"))?;
         Ok(rerun)
     }
 
