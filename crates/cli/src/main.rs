@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::Parser;
 
 use clap::error::Error;
-use command::{Cli, say, with_tip};
+use command::{Cli, complain, refuse_large_files, say, with_tip};
 use laneweave::{Fault, FaultKind};
 
 /// With a million vehicles this allocator makes an update a tenth faster than that of glibc: arrays of one size lie
@@ -23,11 +23,12 @@ const UNWRITTEN: u8 = 1;
 
 fn main() -> ExitCode {
     let started = Instant::now();
+    refuse_large_files();
     let done = Cli::try_parse().map_or_else(help, |cli| cli.execute(started));
     done.unwrap_or_else(|fault| {
         // A reader that closes standard output, such as `head`, is no error.
         if fault.kind != FaultKind::Closed {
-            eprintln!("error: {fault}");
+            complain(format_args!("error: {fault}"));
         }
         ExitCode::from(match fault.kind {
             FaultKind::Output | FaultKind::Closed => UNWRITTEN,

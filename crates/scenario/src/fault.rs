@@ -88,6 +88,9 @@ impl Fault {
             io::ErrorKind::PermissionDenied => "check the permissions, or choose another place",
             io::ErrorKind::AlreadyExists => "choose another name, or delete it first",
             io::ErrorKind::IsADirectory => "give a file, not a folder",
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+                "make room for it, or choose another place"
+            }
             io::ErrorKind::InvalidData => "give a text file in UTF-8",
             _ => "choose another place",
         };

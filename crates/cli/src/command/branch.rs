@@ -11,6 +11,7 @@ use laneweave::record::{Record, SCENARIO};
 use laneweave::study::{Column, Format, TableWriter, seconds};
 use laneweave_studies::branch::{Differences, Setting, Twins, page};
 
+use super::complain;
 use super::say;
 
 #[derive(Debug, Args)]
@@ -43,7 +44,7 @@ impl BranchArguments {
         let claim = Claim::on(&folder)?;
         claim.clear_differences()?;
         let differences = twins.drive();
-        twins.warnings().iter().for_each(|it| eprintln!("warning: commands: {it}"));
+        twins.warnings().iter().for_each(|it| complain(format_args!("warning: commands: {it}")));
         let end = format!("{:016x}", twins.base.state_hash());
         if end != record.end.state_hash {
             let what = format!(

@@ -14,6 +14,7 @@ use laneweave::{Fault, Simulation};
 use laneweave_studies::compare::{Comparison, MEASURES, compare, page};
 
 use super::check::Limit;
+use super::complain;
 use super::run::model;
 use super::say;
 
@@ -75,7 +76,10 @@ impl CompareArguments {
             }
             // Nothing runs before everything has been checked.
             let simulation = Simulation::from_scenario(&scenario, &origin)?;
-            simulation.demand_note().iter().for_each(|it| eprintln!("{}: {it}", input.display()));
+            simulation
+                .demand_note()
+                .iter()
+                .for_each(|it| complain(format_args!("{}: {it}", input.display())));
             let seeds = seeds_from(scenario.run.seed, seeds)?;
             asked.push((input.display().to_string(), scenario, origin, seeds));
         }

@@ -16,6 +16,7 @@ use laneweave_studies::fit::{
 };
 
 use super::check::{Reading, json};
+use super::complain;
 use super::numbers::{number, seed};
 use super::progress::ShareDone;
 use super::say;
@@ -103,10 +104,10 @@ fn judged(observed: &Observed, count: u32) -> Result<Option<Judged>, Fault> {
     let judged = observed.judge(&Rollouts { count, threads }, &|share| shown.show(share))?;
     shown.clear();
     if judged.is_none() {
-        eprintln!(
+        complain(format_args!(
             "warning: the recordings are too short to be simulated: at least 60 s are needed before and after two thirds of \
              their time"
-        );
+        ));
     }
     Ok(judged)
 }
@@ -116,7 +117,7 @@ impl FitArguments {
         self.check_lead()?;
         self.check_position_error()?;
         let observed = self.request().observe()?;
-        observed.problems().iter().for_each(|it| eprintln!("warning: {it}"));
+        observed.problems().iter().for_each(|it| complain(format_args!("warning: {it}")));
         if self.plan {
             let plan = observed.plan();
             return say(&if self.json { json(&plan)? } else { plan.to_text() });

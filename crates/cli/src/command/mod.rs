@@ -26,6 +26,7 @@ mod styles;
 mod tips;
 mod view;
 
+use std::fmt;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -35,6 +36,7 @@ use laneweave::Fault;
 use laneweave::output::command_line;
 use laneweave::scenario::{Origin, Scenario};
 
+pub(crate) use stop::refuse_large_files;
 pub(crate) use tips::with_tip;
 
 /// Microscopic traffic whose drivers change lanes for human reasons.
@@ -147,6 +149,11 @@ impl Cli {
 pub(crate) fn say(text: &str) -> Result<(), Fault> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| Fault::output(&error))
+}
+
+/// Writes a line to standard error. Where that is closed, nobody wants to know.
+pub(crate) fn complain(text: fmt::Arguments) {
+    let _ = writeln!(io::stderr(), "{text}");
 }
 
 /// The command line as it was given.

@@ -15,6 +15,7 @@ use laneweave::{Fault, Simulation};
 use laneweave_studies::replay::{Asked, page, replay, scenario};
 
 use super::check::{Reading, json};
+use super::complain;
 use super::numbers::{number, seed};
 use super::progress::Progress;
 use super::run::{model, weighted};
@@ -150,7 +151,7 @@ impl ReplayArguments {
         ];
         options.iter().for_each(|(key, option)| origin.replaced(key, option));
         let (mut scenario, notes) = scenario(map, replay)?;
-        notes.iter().for_each(|it| eprintln!("note: {it}"));
+        notes.iter().for_each(|it| complain(format_args!("note: {it}")));
         scenario.map_options = MapOptions { joins_ends: true, ..self.options.options() };
         scenario.run.seed = self.seed;
         scenario.output.dir.clone_from(&self.out);

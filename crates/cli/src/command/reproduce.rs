@@ -14,6 +14,7 @@ use laneweave_studies::experiments::{EXPERIMENTS, Effort, Experiment, Finding, s
 use laneweave_studies::fit::Request;
 
 use super::check::Reading;
+use super::complain;
 use super::progress::ShareDone;
 use super::say;
 
@@ -91,7 +92,7 @@ impl ReproduceArguments {
             ..Request::new(self.site.clone())
         };
         let observed = request.observe()?;
-        observed.problems().iter().for_each(|it| eprintln!("warning: {it}"));
+        observed.problems().iter().for_each(|it| complain(format_args!("warning: {it}")));
         let folder = self.folder()?;
         let shown = ShareDone::of("simulations");
         let finding = site_rates(&observed, effort, &|share| shown.show(share))?;

@@ -16,6 +16,7 @@ use laneweave::style::Model;
 use laneweave::{Fault, Simulation};
 
 use super::check::{Limit, json};
+use super::complain;
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
 use super::resume::same_run;
@@ -176,7 +177,7 @@ impl RunArguments {
             Resumed::Run(run) => drive(*run, screen, started),
             Resumed::Complete(summary) => {
                 if !screen.quiet {
-                    eprintln!("{}: the run is already complete", dir.display());
+                    complain(format_args!("{}: the run is already complete", dir.display()));
                 }
                 if screen.json {
                     say(&summary)?;
@@ -282,13 +283,14 @@ fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> 
     });
     progress.clear();
     let results = results?;
-    match screen {
-        Screen { json: true, .. } => say(&results.summary.to_json()?)?,
-        Screen { quiet: false, .. } => say(&results.to_text())?,
-        _ => {}
-    }
+    let said = match screen {
+        Screen { json: true, .. } => say(&results.summary.to_json()?),
+        Screen { quiet: false, .. } => say(&results.to_text()),
+        _ => Ok(()),
+    };
+    said.or_else(|fault| if stop.has_hung_up() { Ok(()) } else { Err(fault) })?;
     if !screen.quiet {
-        results.warnings.iter().for_each(|it| eprintln!("warning: commands: {it}"));
+        results.warnings.iter().for_each(|it| complain(format_args!("warning: commands: {it}")));
     }
     Ok(if results.summary.interrupted { stop.code() } else { ExitCode::SUCCESS })
 }
@@ -297,15 +299,15 @@ fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> 
 fn warn(simulation: &Simulation) {
     let problems = simulation.problems();
     for problem in problems.iter().take(LISTED_PROBLEMS) {
-        eprintln!("warning: map: {problem}");
+        complain(format_args!("warning: map: {problem}"));
     }
     if problems.len() > LISTED_PROBLEMS {
-        eprintln!("warning: map: {} more problems like these", problems.len() - LISTED_PROBLEMS);
+        complain(format_args!("warning: map: {} more problems like these", problems.len() - LISTED_PROBLEMS));
     }
     for remark in simulation.remarks() {
-        eprintln!("warning: map: {remark}");
+        complain(format_args!("warning: map: {remark}"));
     }
-    simulation.demand_note().iter().for_each(|it| eprintln!("{it}"));
+    simulation.demand_note().iter().for_each(|it| complain(format_args!("{it}")));
     let warnings = [simulation.step_warning(), simulation.demand_warning()];
-    warnings.iter().flatten().for_each(|it| eprintln!("warning: {it}"));
+    warnings.iter().flatten().for_each(|it| complain(format_args!("warning: {it}")));
 }

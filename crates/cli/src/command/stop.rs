@@ -5,6 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use laneweave::Fault;
+#[cfg(unix)]
+use signal_hook::consts::{SIGHUP, SIGXFSZ};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
@@ -12,7 +14,8 @@ use signal_hook::flag;
 /// shells.
 const SIGNALLED: i32 = 128;
 
-/// The flag that the first Ctrl-C or SIGTERM sets. A second one ends the program at once, with the same exit code.
+/// The flag that the first Ctrl-C, SIGTERM or SIGHUP sets. A second Ctrl-C or SIGTERM ends the program at once, with its
+/// exit code; a second SIGHUP does not, because a terminal that closes sends more than one.
 pub(super) struct Stop {
     is_raised: Arc<AtomicBool>,
     code: Arc<AtomicUsize>,
@@ -25,16 +28,25 @@ impl Stop {
     /// If the system does not let the program listen.
     pub(super) fn listen() -> Result<Stop, Fault> {
         let stop = Stop { is_raised: Arc::default(), code: Arc::default() };
-        for signal in [SIGINT, SIGTERM] {
-            stop.listen_to(signal).map_err(|error| Fault::bug("signals", error))?;
-        }
+        stop.listen_to_all().map_err(|error| Fault::bug("signals", error))?;
         Ok(stop)
+    }
+
+    fn listen_to_all(&self) -> std::io::Result<()> {
+        for signal in [SIGINT, SIGTERM] {
+            // The handler registered first runs first: it finds the flag as a former signal left it.
+            flag::register_conditional_shutdown(signal, SIGNALLED + signal, Arc::clone(&self.is_raised))?;
+            self.listen_to(signal)?;
+        }
+        #[cfg(unix)]
+        if !is_ignored(SIGHUP) {
+            self.listen_to(SIGHUP)?;
+        }
+        Ok(())
     }
 
     fn listen_to(&self, signal: i32) -> std::io::Result<()> {
         let code = SIGNALLED + signal;
-        // The handler registered first runs first: it finds the flag as a former signal left it.
-        flag::register_conditional_shutdown(signal, code, Arc::clone(&self.is_raised))?;
         flag::register_usize(signal, Arc::clone(&self.code), code as usize)?;
         flag::register(signal, Arc::clone(&self.is_raised))?;
         Ok(())
@@ -49,4 +61,29 @@ impl Stop {
     pub(super) fn code(&self) -> ExitCode {
         ExitCode::from(self.code.load(Ordering::Acquire) as u8)
     }
+
+    /// Whether the terminal has closed, so that nobody may read any more.
+    pub(super) fn has_hung_up(&self) -> bool {
+        #[cfg(unix)]
+        return self.code.load(Ordering::Acquire) == (SIGNALLED + SIGHUP) as usize;
+        #[cfg(not(unix))]
+        return false;
+    }
+}
+
+/// Whether the program was begun with a signal ignored, as `nohup` does. Only Linux tells.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|it| it.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|it| u64::from_str_radix(it.trim(), 16).ok()).unwrap_or(0);
+    ignored >> (signal - 1) & 1 == 1
+}
+
+/// Has a file that grows beyond a limit of the system refused, as one on a full disk is: otherwise a signal ends the
+/// program.
+pub(crate) fn refuse_large_files() {
+    // Where this is not possible, the signal comes.
+    #[cfg(unix)]
+    let _ = flag::register(SIGXFSZ, Arc::default());
 }

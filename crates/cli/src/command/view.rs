@@ -11,6 +11,7 @@ use laneweave::output::write_whole;
 use laneweave_studies::branch::Setting;
 use laneweave_viewer::{Server, Source, Token, export};
 
+use super::complain;
 use super::doorway::Doorway;
 use super::numbers::number;
 use super::say;
@@ -94,7 +95,7 @@ impl ViewArguments {
 fn open_browser(address: &str) -> Option<Doorway> {
     let opened = Doorway::to(address).and_then(|it| open::that_detached(it.path()).map(|()| it));
     if opened.is_err() {
-        eprintln!("no browser could be opened: open this address yourself");
+        complain(format_args!("no browser could be opened: open this address yourself"));
     }
     opened.ok()
 }

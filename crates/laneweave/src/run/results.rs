@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use laneweave_results::checkpoint::{self, Checkpoint, Keeper};
 use laneweave_results::folder::Claim;
-use laneweave_results::output::{Inputs, Provenance, Summary, outputs, write_whole};
+use laneweave_results::output::{Inputs, Provenance, Summary, all_whole, outputs, write_whole};
 use laneweave_results::record::{self, SCENARIO, SUMMARY};
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Origin, Scenario};
@@ -121,14 +121,11 @@ impl Run {
         let inputs = Inputs { scenario: &scenario, ending: &ending, wall_s, load_s, provenance: &provenance };
         let prepared = &simulation.prepared;
         let summary = Summary::of(prepared, inputs);
-        let mut files = vec![dir.join(SCENARIO)];
-        for output in outputs {
-            files.extend(output.finish(&prepared.world, &summary)?);
-        }
-        let summary = summary.after(started.elapsed().as_secs_f64());
-        let path = dir.join(SUMMARY);
-        write_whole(&path, &summary.to_json()?)?;
-        files.push(path);
+        let written = outputs.into_iter().map(|it| it.finish(&prepared.world, &summary));
+        let written = all_whole([Ok(vec![dir.join(SCENARIO)])].into_iter().chain(written));
+        let (summary, path) = (summary.clone().after(started.elapsed().as_secs_f64()), dir.join(SUMMARY));
+        let summed_up = write_whole(&path, &summary.to_json()?).map(|()| vec![path]);
+        let files = all_whole([written, summed_up])?;
         if keeper.is_some() && !ending.is_interrupted {
             // Once the results are on disk, there is nothing to resume any more.
             claim.settle(&files)?;

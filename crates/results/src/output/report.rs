@@ -12,7 +12,7 @@ use super::folder::Folder;
 use crate::outcome::{About, Provenance, Summary};
 use crate::pack::{pack, unpack};
 use crate::report::{Record, RunReport};
-use crate::whole_file::write_whole;
+use crate::whole_file::{all_whole, write_whole};
 
 /// Collects the data of the report of a run.
 pub(super) struct Report {
@@ -59,9 +59,11 @@ impl Output for Report {
         let (about, provenance, record, network) = (&about, &provenance, &record, world.network());
         let aggregates = &world.lanelet_aggregates();
         let report = RunReport { about, provenance, summary, record, network, aggregates, end };
-        write_whole(&path, &report.page().to_html())?;
-        write_whole(&rate, &record.rate_figure(end))?;
-        write_whole(&time_space, &record.time_space_figure())?;
-        Ok(vec![path, rate, time_space])
+        let texts = [
+            (path, report.page().to_html()),
+            (rate, record.rate_figure(end)),
+            (time_space, record.time_space_figure()),
+        ];
+        all_whole(texts.into_iter().map(|(path, text)| write_whole(&path, &text).map(|()| vec![path])))
     }
 }

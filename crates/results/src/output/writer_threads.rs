@@ -19,6 +19,7 @@ use super::log::{PageLog, batches};
 use super::names::Names;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
+use crate::whole_file::all_whole;
 
 /// Batches that wait for a thread: as many as are filled while a row group of a table is encoded.
 const WAITING: usize = 16;
@@ -96,8 +97,7 @@ impl WriterThreads {
         let ended: Vec<_> =
             threads.into_iter().map(|it| it.join().unwrap_or_else(|_| Err(broke_off()))).collect();
         // The tables come first; their thread was begun last.
-        let files: Result<Vec<Vec<PathBuf>>, Fault> = ended.into_iter().rev().collect();
-        Ok(files?.concat())
+        all_whole(ended.into_iter().rev())
     }
 }
 
@@ -176,7 +176,7 @@ impl Stage {
                 }
             }
             if matches!(*batch, Batch::End) {
-                return writers.into_iter().map(Writer::finish).collect();
+                return all_whole(writers.into_iter().map(|it| it.finish().map(|it| vec![it])));
             }
             for writer in &mut writers {
                 writer.write(&batch, &self.names)?;

@@ -22,6 +22,9 @@ mod golden;
 #[cfg(test)]
 mod help;
 #[cfg(test)]
+#[cfg(target_os = "linux")]
+mod limits;
+#[cfg(test)]
 mod mistakes;
 #[cfg(test)]
 mod program;

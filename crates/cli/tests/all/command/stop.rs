@@ -74,3 +74,35 @@ fn a_run_that_was_terminated_can_be_resumed() {
     assert_eq!(child.wait().unwrap().code(), Some(143));
     assert!(folder.holds("out/checkpoint") && folder.holds("out/checkpoint.pages"));
 }
+
+#[test]
+fn a_terminal_that_closes_ends_a_run_with_whole_results_however_often_it_says_so() {
+    let folder = Folder::new();
+    let mut child = long_run(&folder, "--format csv");
+    // Nobody reads any more.
+    drop((child.stdout.take(), child.stderr.take()));
+    (0..3).for_each(|_| send(&child, "-HUP"));
+    let status = child.wait().unwrap();
+    assert_eq!((status.code(), status.signal()), (Some(129), None));
+    let summary: Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    assert_eq!(summary["interrupted"], true);
+    assert!(folder.read("out/trajectories.csv").ends_with('\n') && folder.holds("out/report.html"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_run_that_was_begun_with_nohup_goes_on_when_the_terminal_closes() {
+    let folder = Folder::new();
+    let line = format!("run {}/ramps.osm --duration 1e6 --quiet --format csv", maps().display());
+    let mut command = Command::new("nohup");
+    command.arg(env!("CARGO_BIN_EXE_laneweave")).args(line.split_whitespace()).current_dir(folder.path());
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    while folder.length("out/trajectories.csv.partial") == 0 {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    send(&child, "-HUP");
+    std::thread::sleep(Duration::from_millis(200));
+    assert!(child.try_wait().unwrap().is_none());
+    send(&child, "-TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(143));
+}
