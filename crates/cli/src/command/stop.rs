@@ -14,8 +14,8 @@ use signal_hook::flag;
 /// shells.
 const SIGNALLED: i32 = 128;
 
-/// The flag that the first Ctrl-C, SIGTERM or SIGHUP sets. A second Ctrl-C or SIGTERM ends the program at once, with its
-/// exit code; a second SIGHUP does not, because a terminal that closes sends more than one.
+/// The flag that the first Ctrl-C, SIGTERM or SIGHUP sets. A second Ctrl-C or SIGTERM ends the program at once, with
+/// its exit code; a second SIGHUP does not, because a terminal that closes sends more than one.
 pub(super) struct Stop {
     is_raised: Arc<AtomicBool>,
     code: Arc<AtomicUsize>,
