@@ -5,6 +5,7 @@ use std::io;
 use laneweave_network::NetworkError;
 use thiserror::Error;
 
+use crate::foreign::CONVERT;
 use crate::problem::Problem;
 use crate::size::Size;
 use crate::xml::XmlError;
@@ -41,6 +42,27 @@ pub enum MapError {
         told_by: &'static str,
         /// What to give in its place.
         remedy: String,
+    },
+    /// It is a road network of a format that is not read.
+    #[error("by its content this is {what}, which is not read; {remedy}")]
+    Foreign {
+        /// What it is.
+        what: &'static str,
+        /// How to get a map from it.
+        remedy: &'static str,
+    },
+    /// It is a street map of OpenStreetMap, with streets as lines and without lanes.
+    #[error(
+        "line {line}: this is a street map of OpenStreetMap, with {streets} streets (way {way} is the first) and no lanelet, so nothing \
+         is known of its lanes; {CONVERT}, or draw lanelets"
+    )]
+    Streets {
+        /// The line of the first street.
+        line: usize,
+        /// Its id.
+        way: i64,
+        /// The number of streets.
+        streets: usize,
     },
     /// It is a map of another format than its name says.
     #[error("by its content this is a {format} map; rename it so that its name ends in .{extension}")]
@@ -82,6 +104,17 @@ pub enum MapError {
     /// The lanelets do not make a network.
     #[error(transparent)]
     Network(#[from] NetworkError),
+}
+
+impl MapError {
+    /// The line of the file with the error, where it has one place.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            MapError::Xml(error) => Some(error.line()),
+            MapError::Streets { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
 }
 
 fn first(problems: &[Problem]) -> String {

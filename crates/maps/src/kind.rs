@@ -6,6 +6,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use flate2::read::MultiGzDecoder;
+
+use crate::foreign::Foreign;
 use crate::format::{FORMATS, Format};
 
 /// What a file is.
@@ -13,6 +16,8 @@ use crate::format::{FORMATS, Format};
 pub enum FileKind {
     /// A map of this format, maybe compressed; maybe with a recording ([`Format::has_tracks`]).
     Map(&'static Format),
+    /// A road network of a format that is not read.
+    Foreign(&'static Foreign),
     /// Another XML file.
     Xml,
     /// A table as text, such as a recording.
@@ -67,6 +72,9 @@ impl FileKind {
         if let Some(format) = FORMATS.iter().find(|it| it.begins.is_some_and(|begins| begins(start))) {
             return FileKind::Map(format);
         }
+        if let Some(foreign) = Foreign::of(start) {
+            return FileKind::Foreign(foreign);
+        }
         let text = String::from_utf8_lossy(start);
         let text = text.trim_start_matches('\u{feff}').trim_start();
         let line = |it: &&str| !it.is_empty() && !it.starts_with('#');
@@ -96,6 +104,7 @@ impl fmt::Display for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FileKind::Map(format) => write!(f, "a {} map", format.name),
+            FileKind::Foreign(format) => format.fmt(f),
             FileKind::Xml => f.write_str("XML of an unknown format"),
             FileKind::Csv => f.write_str("a table, such as a recording"),
             FileKind::Parquet => f.write_str("a Parquet table, such as a recording"),
@@ -117,10 +126,13 @@ pub fn uncompressed(path: &Path) -> Cow<'_, str> {
     name.unwrap_or_default().to_string_lossy()
 }
 
-/// The first bytes of a file; none if it cannot be read.
+/// The first bytes of a file, unpacked if it is compressed; none if it cannot be read.
 pub(crate) fn start(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|it| it.take(ENOUGH as u64).read_to_end(&mut bytes));
+    let read = File::open(path).and_then(|file| match is_compressed(path) {
+        true => MultiGzDecoder::new(file).take(ENOUGH as u64).read_to_end(&mut bytes),
+        false => file.take(ENOUGH as u64).read_to_end(&mut bytes),
+    });
     read.map_or(Vec::new(), |_| bytes)
 }
 
@@ -147,6 +159,9 @@ mod tests {
         let by_content = |start: &str| FileKind::by_content(start.as_bytes()).to_string();
         assert_eq!(by_content("\u{feff}<?xml version='1.0'?>\n<!-- by hand -->\n<osm>"), "a Lanelet2 map");
         assert_eq!(by_content("<commonRoad a='"), "a CommonRoad map");
+        assert_eq!(by_content("<?xml version='1.0'?>\n<OpenDRIVE>"), "an OpenDRIVE road network");
+        assert_eq!(by_content("<!-- netconvert -->\n<net version='1.16'>"), "a SUMO road network");
+        assert_eq!(by_content("\0\0\0\x0e\n\tOSMHeader\x18"), "binary OpenStreetMap data (.pbf)");
         assert_eq!(by_content("<!DOCTYPE html><html>"), "XML of an unknown format");
         assert_eq!(by_content("# ours\n\nmap = \"town.osm\"\n"), "a scenario or a style");
         assert_eq!(by_content("[follow]\nmodel"), "a scenario or a style");

@@ -7,6 +7,7 @@ use std::path::Path;
 use flate2::read::MultiGzDecoder;
 
 use crate::error::MapError;
+use crate::foreign::Foreign;
 use crate::format::{FORMATS, Format};
 use crate::kind::{FileKind, is_compressed, start, uncompressed};
 use crate::map::Map;
@@ -39,6 +40,7 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
     }
     match FileKind::by_content(&bytes) {
         FileKind::Map(other) if other.name != format.name => Err(misnamed(other)),
+        FileKind::Foreign(foreign) => Err(not_read(foreign)),
         other @ (FileKind::Toml | FileKind::Csv | FileKind::Parquet) if format.begins.is_some() => {
             Err(other_kind(other, path, "content"))
         }
@@ -79,6 +81,7 @@ fn format_of(path: &Path) -> Result<&'static Format, MapError> {
 fn other_kind(kind: FileKind, path: &Path, told_by: &'static str) -> MapError {
     let remedy = match (kind, told_by) {
         (FileKind::Map(format), _) => return misnamed(format),
+        (FileKind::Foreign(foreign), _) => return not_read(foreign),
         (FileKind::Toml, "name") => "give the map itself, which a scenario names in its key map".into(),
         (FileKind::Toml, _) => "give the map itself, or let the name of a scenario end in .toml".into(),
         (FileKind::Csv | FileKind::Parquet, _) => {
@@ -91,6 +94,10 @@ fn other_kind(kind: FileKind, path: &Path, told_by: &'static str) -> MapError {
 
 fn misnamed(format: &Format) -> MapError {
     MapError::Misnamed { format: format.name, extension: format.extensions[0] }
+}
+
+fn not_read(foreign: &Foreign) -> MapError {
+    MapError::Foreign { what: foreign.name, remedy: foreign.remedy }
 }
 
 fn unknown(path: &Path) -> MapError {

@@ -38,6 +38,21 @@ pub enum XmlError {
         /// The error.
         what: String,
     },
+    /// A number has a decimal comma.
+    #[error(
+        "line {line}: {key} is {value:?}, with a decimal comma; write a point in all numbers, such as {better}, for example by \
+         another language in the settings of the program that exported the map"
+    )]
+    DecimalComma {
+        /// The line of the number.
+        line: usize,
+        /// What it is called.
+        key: String,
+        /// The number as text.
+        value: String,
+        /// The same with a point.
+        better: String,
+    },
     /// It is XML of another kind.
     #[error(
         "line {line}: the outermost element is <{found}>, not <{expected}>; is this a file of another format?"
@@ -116,9 +131,10 @@ impl XmlError {
     /// The same error, so many lines further on.
     pub(crate) fn moved(mut self, lines: usize) -> XmlError {
         match &mut self {
-            XmlError::NotText { line } | XmlError::Broken { line, .. } | XmlError::OtherRoot { line, .. } => {
-                *line += lines;
-            }
+            XmlError::NotText { line }
+            | XmlError::Broken { line, .. }
+            | XmlError::DecimalComma { line, .. }
+            | XmlError::OtherRoot { line, .. } => *line += lines,
         }
         self
     }
@@ -126,9 +142,10 @@ impl XmlError {
     /// The line of the error.
     pub fn line(&self) -> usize {
         match self {
-            XmlError::NotText { line } | XmlError::Broken { line, .. } | XmlError::OtherRoot { line, .. } => {
-                *line
-            }
+            XmlError::NotText { line }
+            | XmlError::Broken { line, .. }
+            | XmlError::DecimalComma { line, .. }
+            | XmlError::OtherRoot { line, .. } => *line,
         }
     }
 }
@@ -343,6 +360,13 @@ fn resolved(reference: &BytesRef, line: usize) -> Result<String, XmlError> {
 /// The error that `what`, in `line`, makes the file no well-formed XML.
 fn broken(line: usize, what: impl Display) -> XmlError {
     XmlError::Broken { line, what: what.to_string() }
+}
+
+/// The number in `text` with a decimal point, if it is one with a decimal comma.
+pub(crate) fn with_point(text: &str) -> Option<String> {
+    let has_comma = text.matches(',').count() == 1;
+    let better = text.trim().replace(',', ".");
+    (has_comma && !number(&better).is_nan()).then_some(better)
 }
 
 /// The number in `text`; NaN where it is unreadable.

@@ -36,7 +36,7 @@ pub fn open(path: &Path, layout: Option<&Layout>) -> Result<(Recording, Vec<Prob
             what: kind.to_string(),
             remedy: "give it with --map, and the recording in its place",
         }),
-        FileKind::Map(_) | FileKind::Xml => {
+        FileKind::Map(_) | FileKind::Foreign(_) | FileKind::Xml => {
             let mut bytes = Vec::new();
             file.take(commonroad::MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
             commonroad::read(&bytes)

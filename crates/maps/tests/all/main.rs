@@ -2,6 +2,7 @@
 
 mod commonroad;
 mod lanelet2;
+mod other_formats;
 mod proportion;
 mod real_maps;
 mod robustness;

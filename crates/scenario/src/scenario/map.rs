@@ -54,10 +54,7 @@ impl From<&MapOptions> for ReadOptions {
 /// The fault of the map at `path`: for a wrong path, its place is in the scenario file; for a wrong content, in the
 /// map.
 fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
-    let line = match error {
-        MapError::Xml(error) => Some(error.line()),
-        _ => None,
-    };
+    let line = error.line();
     let message = error.to_string();
     let message = line.and_then(|it| message.strip_prefix(&format!("line {it}: "))).unwrap_or(&message);
     let (what, remedy) = message.rsplit_once("; ").unwrap_or((message, "correct the map"));
@@ -79,6 +76,7 @@ fn map_fault(error: &MapError, path: &Path, origin: &Origin) -> Fault {
             | MapError::Folder
             | MapError::UnknownFormat { .. }
             | MapError::OtherKind { .. }
+            | MapError::Foreign { .. }
             | MapError::Misnamed { .. },
             _,
             Some(place),

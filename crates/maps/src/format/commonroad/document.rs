@@ -10,7 +10,7 @@ use super::rules;
 use crate::drawing::Crossing;
 use crate::problem::Problem;
 use crate::shape::MAXIMUM_COORDINATE;
-use crate::xml::{Element, Visitor, XmlError, number, walk};
+use crate::xml::{Element, Visitor, XmlError, number, walk, with_point};
 
 /// The roads of a CommonRoad file.
 #[derive(Default)]
@@ -205,9 +205,12 @@ impl LaneletElement {
             "point/x" => point.x = coordinate,
             "point/y" => point.y = coordinate,
             "point/z" => point.z = coordinate,
-            _ => {}
+            _ => return None,
         }
-        None
+        let is_first = bound.points.len() == 1;
+        let better = with_point(text).filter(|_| is_first)?;
+        let what = format!("its {part} is {text:?}, with a decimal comma");
+        Some(self.problem(what, &format!("write a point in all numbers, such as {better}")))
     }
 
     fn close_property(&mut self, part: &str, text: &str) -> Option<Problem> {

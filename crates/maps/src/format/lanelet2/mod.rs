@@ -55,11 +55,25 @@ impl<'a> Document<'a> {
         Ok((document, problems))
     }
 
+    /// The refusal of a street map of OpenStreetMap, which has streets and no lanelet.
+    fn streets(&self) -> Option<MapError> {
+        if self.relations_of_type("lanelet").next().is_some() {
+            return None;
+        }
+        let mut streets = self.ways.iter().filter(|it| self.tags(it.tags).get("highway").is_some());
+        let first = streets.next()?;
+        let (line, way) = (first.line as usize, first.id);
+        Some(MapError::Streets { line, way, streets: 1 + streets.count() })
+    }
+
     /// The map of these elements, with the `problems` that are already known, and the problems found here.
     ///
     /// # Errors
     /// If it holds no lanelet that cars may use.
     pub fn map(self, mut problems: Vec<Problem>, options: &ReadOptions) -> Result<Map, MapError> {
+        if let Some(error) = self.streets() {
+            return Err(error);
+        }
         let (lookup, origin) = Lookup::new(&self, options.origin, &mut problems)?;
         let mut contents = contents::contents(&self, &lookup, &mut problems);
         let drawing = draw::draw(&self, lookup, options, &mut contents, &mut problems);

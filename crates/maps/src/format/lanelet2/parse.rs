@@ -7,12 +7,29 @@ use laneweave_network::DrivingSide;
 
 use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Tag, Way};
 use crate::problem::Problem;
-use crate::xml::{self, Element, Token, Tokens, XmlError, number};
+use crate::xml::{self, Element, Token, Tokens, XmlError, number, with_point};
 
-/// Sets a coordinate that was not set before.
-fn set(coordinate: &mut Coordinate, text: &str) {
+/// Sets a coordinate called `key` that was not set before.
+///
+/// # Errors
+/// If it has a decimal comma.
+fn set(coordinate: &mut Coordinate, line: usize, key: &str, text: &str) -> Result<(), XmlError> {
     if coordinate.get().is_none() {
-        *coordinate = Coordinate::new(number(text));
+        let value = number(text);
+        refuse_comma(value, line, key, text)?;
+        *coordinate = Coordinate::new(value);
+    }
+    Ok(())
+}
+
+/// Refuses the `text` of a coordinate with a decimal comma, whose value is not a number: whatever wrote it writes all
+/// numbers so.
+fn refuse_comma(value: f64, line: usize, key: &str, text: &str) -> Result<(), XmlError> {
+    match Some(text).filter(|_| value.is_nan()).and_then(with_point) {
+        Some(better) => {
+            Err(XmlError::DecimalComma { line, key: key.into(), value: text.trim().into(), better })
+        }
+        None => Ok(()),
     }
 }
 
@@ -178,11 +195,11 @@ impl<'a> Parser<'a, '_> {
                 "id" => id = id.or(Some(value)),
                 // Editors keep deleted elements in the file until it is uploaded.
                 "action" if value == "delete" => return Ok(()),
-                "lat" => set(&mut node.lat, &value),
-                "lon" => set(&mut node.lon, &value),
-                "x" => set(&mut node.x, &value),
-                "y" => set(&mut node.y, &value),
-                "ele" => set(&mut node.ele, &value),
+                "lat" => set(&mut node.lat, element.line, key, &value)?,
+                "lon" => set(&mut node.lon, element.line, key, &value)?,
+                "x" => set(&mut node.x, element.line, key, &value)?,
+                "y" => set(&mut node.y, element.line, key, &value)?,
+                "ele" => set(&mut node.ele, element.line, key, &value)?,
                 _ => {}
             }
         }
@@ -225,6 +242,9 @@ impl<'a> Parser<'a, '_> {
             }
         }
         if let (Some(key), Some(value)) = (key, value) {
+            if matches!(key.as_ref(), "local_x" | "local_y" | "ele") {
+                refuse_comma(number(&value), element.line, &key, &value)?;
+            }
             let tag = Tag { key: self.document.keep(&key), value: self.document.keep(&value) };
             self.document.tags.push(tag);
         }
