@@ -1,11 +1,11 @@
 //! The map of a drawing: which of its lanes have a shape, how they are linked, and which conflict.
 
-use laneweave_network::{Lanelet, Network, Polygon};
+use laneweave_network::{Lanelet, Network, Point, Polygon};
 use rayon::prelude::*;
 
 use crate::conflict::conflicts;
 use crate::contents::Contents;
-use crate::drawing::{Drawing, KMH_PER_MPS, Lane, Surroundings};
+use crate::drawing::{Drawing, Edge, KMH_PER_MPS, Lane, Surroundings};
 use crate::error::MapError;
 use crate::graph::{self, Graph};
 use crate::map::Map;
@@ -21,24 +21,26 @@ impl Drawing {
         let mut lanes = Vec::with_capacity(self.lanes.len());
         let mut lanelets = Vec::with_capacity(self.lanes.len());
         let mut problems = Vec::new();
-        let shape = |lane: &Lane| Shape::between(self.polyline(lane.left), self.polyline(lane.right));
+        let line = |edge: Edge| -> Vec<Point> { self.along(edge).collect() };
+        let shape = |lane: &Lane| Shape::between(&line(lane.left), &line(lane.right));
         let shapes: Vec<Result<Shape, Flaw>> = self.lanes.par_iter().map(shape).collect();
         for (lane, shape) in self.lanes.iter().zip(shapes) {
+            let problem = |what: String, flaw: Flaw| Problem {
+                element: format!("lanelet {}", lane.id),
+                line: lane.line,
+                what,
+                remedy: flaw.remedy.into(),
+            };
             match shape {
-                Ok(shape) => {
+                Ok(Shape { left, right, centre, flaws }) => {
                     lanes.push(*lane);
-                    let Shape { left, right, centre } = shape;
+                    problems.extend(flaws.into_iter().map(|it| problem(it.what.into(), it)));
                     let limit = lane.limit_kmh / KMH_PER_MPS;
                     let is_in_town = lane.surroundings == Surroundings::Town;
                     let alone = Lanelet::alone(lane.id, [left, right, centre], limit);
                     lanelets.push(Lanelet { is_in_town, classes: lane.classes, ..alone });
                 }
-                Err(flaw) => problems.push(Problem {
-                    element: format!("lanelet {}", lane.id),
-                    line: lane.line,
-                    what: format!("{}, so it is left out", flaw.what),
-                    remedy: flaw.remedy.into(),
-                }),
+                Err(flaw) => problems.push(problem(format!("{}, so it is left out", flaw.what), flaw)),
             }
         }
         if lanelets.is_empty() {

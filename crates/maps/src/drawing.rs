@@ -1,6 +1,6 @@
 //! A map as it is drawn: points, borders through them, and lanes between borders.
 
-use laneweave_network::{Classes, DrivingSide, Point, Polygon, Polyline};
+use laneweave_network::{Classes, DrivingSide, Point, Polygon};
 
 use crate::rule::Rule;
 
@@ -160,15 +160,11 @@ impl Drawing {
     }
 
     /// The points of `edge` in the direction of travel.
-    fn along(&self, edge: Edge) -> impl Iterator<Item = Point> {
+    pub(crate) fn along(&self, edge: Edge) -> impl Iterator<Item = Point> {
         let points = &self.borders[edge.border as usize].points;
         (0..points.len()).map(move |index| {
             let index = if edge.reversed { points.len() - 1 - index } else { index };
             self.points[points[index] as usize]
         })
-    }
-
-    pub(crate) fn polyline(&self, edge: Edge) -> Option<Polyline> {
-        Polyline::new(self.along(edge))
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use laneweave_maps::{Map, MapError, ReadOptions, lanelet2, load};
 use laneweave_network::DrivingSide;
+use laneweave_test_data::data;
 
 /// Two lanes of 10 m, of which each test breaks something.
 const TWO_LANES: &str = "<osm>
@@ -73,14 +74,50 @@ fn lanes_with_broken_borders_are_left_out_and_listed() {
         one("ref='11' role", "ref='1' role").starts_with("lanelet 21 (line 11): its right border is way 1,")
     );
     assert!(one("role='right'/>\n", "role='left'/>\n").contains("several left borders"));
-    assert!(one("<nd ref='5'/>", "").contains("way 13, has fewer than two nodes"));
+    assert!(one("<nd ref='5'/><nd ref='6'/>", "").contains("way 13, has no nodes"));
     assert!(one("<nd ref='5'/>", "<nd ref='77'/>").contains("runs through node 77, which is missing"));
     assert!(
         one("x='0' y='8'", "x='nan' y='8'")
             .contains("node 5 (line 6) of its border has no geographic position")
     );
-    assert!(one("x='10' y='8'", "x='0' y='8'").contains("left border has no length"));
     assert!(one("x='10' y='8'", "x='21000' y='8'").contains("longer than 20 km"));
+}
+
+#[test]
+fn a_border_at_one_place_is_driven_around_and_listed() {
+    for (from, to) in [("<nd ref='5'/>", ""), ("x='10' y='8'", "x='0' y='8'")] {
+        let (problems, ids) = broken(from, to);
+        assert_eq!(ids, [21, 22]);
+        assert_eq!(
+            problems,
+            [
+                "lanelet 22 (line 13): one of its borders is a single point, so vehicles turn around it; draw it through at least two \
+              different points if it has a length"
+            ]
+        );
+    }
+}
+
+#[test]
+fn borders_that_were_drawn_badly_are_read_as_the_reference_library_reads_them() {
+    let lengths = |name: &str| -> Option<(Vec<f64>, Vec<String>)> {
+        let map = load(&data(&format!("cases/{name}.osm"))?, &ReadOptions::default()).unwrap();
+        let problems = map.problems.iter().map(ToString::to_string).collect();
+        // All are one row of lanelets.
+        assert_eq!(map.network.chains.len(), 1, "{name}");
+        Some((map.network.lanelets.iter().map(|it| it.length().round()).collect(), problems))
+    };
+    for (name, expected, what) in [
+        ("04_inner_border_one_point", vec![100.0, 3.0, 100.0], "is a single point"),
+        ("04b_inner_border_two_equal", vec![100.0, 3.0, 100.0], "is a single point"),
+        ("05_repeated_node", vec![201.0], "one place twice in a row"),
+        ("05b_two_nodes_one_place", vec![201.0], "one place twice in a row"),
+        ("06b_spike", vec![201.0], "its borders cross"),
+    ] {
+        let Some((lengths, problems)) = lengths(name) else { continue };
+        assert_eq!(lengths, expected, "{name}");
+        assert!(problems.len() == 1 && problems[0].contains(what), "{name}: {problems:?}");
+    }
 }
 
 #[test]

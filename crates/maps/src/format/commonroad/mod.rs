@@ -26,7 +26,7 @@ mod speed;
 
 use std::collections::hash_map::Entry;
 
-use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Polyline};
+use laneweave_network::{Lanelet, LaneletIndex, Network};
 
 use crate::contents::Contents;
 use crate::drawing::Surroundings;
@@ -109,9 +109,11 @@ fn shaped<'a>(
 
 /// The shape of `element` as a lanelet.
 fn bare(element: &LaneletElement, problems: &mut Vec<Problem>) -> Option<Lanelet> {
-    let line = |points: &[Point]| Polyline::new(points.iter().copied());
-    match Shape::between(line(&element.left.points), line(&element.right.points)) {
-        Ok(Shape { left, right, centre }) => Some(Lanelet::alone(element.id, [left, right, centre], 0.0)),
+    match Shape::between(&element.left.points, &element.right.points) {
+        Ok(Shape { left, right, centre, flaws }) => {
+            problems.extend(flaws.iter().map(|it| element.problem(it.what, it.remedy)));
+            Some(Lanelet::alone(element.id, [left, right, centre], 0.0))
+        }
         Err(flaw) => {
             let what = format!("{}, so it is left out", flaw.what);
             problems.push(element.problem(what, flaw.remedy));

@@ -153,8 +153,8 @@ impl Draft<'_> {
         }
         let way = &self.document.ways[place];
         let nodes = self.document.nodes_of(way);
-        if nodes.len() < 2 {
-            let what = format!("its border, way {}, has fewer than two nodes", way.id);
+        if nodes.is_empty() {
+            let what = format!("its border, way {}, has no nodes", way.id);
             return Err((what, "draw the way through at least two nodes"));
         }
         let points = nodes.iter().map(|id| self.point(way, *id)).collect::<Result<_, _>>()?;

@@ -3,18 +3,62 @@
 
 use laneweave_network::Point;
 
-/// Whether the left and the right border must be reversed to run in the direction of travel.
-///
-/// The left border is turned so that the middle of the right one lies to its right, then the right border so
-/// that the middle of the left one lies to its left.
+/// Points that are nearer to each other lie at one place [m].
+const SAME: f64 = 1e-6;
+
+/// Whether the left and the right border must be reversed to run in the direction of travel. A border at one place
+/// runs as it is listed.
 pub(super) fn reversals(left: &[Point], right: &[Point]) -> (bool, bool) {
+    let (left, right) = (without_repetitions(left), without_repetitions(right));
+    if left.len() < 2 || right.len() < 2 {
+        let beside = |line: &[Point], other: &[Point]| other.first().map_or(0.0, |it| side(line, *it));
+        return (beside(&left, &right) > 0.0, beside(&right, &left) < 0.0);
+    }
+    let usual = by_middle(&left, &right);
+    let (l, r) = (turned(&left, usual.0), turned(&right, usual.1));
+    if are_parallel(&l, &r) && area(&l, &r) <= 0.0 { usual } else { by_area(&left, &right) }
+}
+
+/// As the reference library decides: the left border is turned so that the middle of the right one lies to its right,
+/// then the right border so that the middle of the left one lies to its left.
+fn by_middle(left: &[Point], right: &[Point]) -> (bool, bool) {
     let reverse_left = side(left, middle(right)) >= 0.0;
-    let middle_left = if reverse_left { middle(&reversed(left)) } else { middle(left) };
+    let middle_left = middle(&turned(left, reverse_left));
     (reverse_left, side(right, middle_left) <= 0.0)
 }
 
-fn reversed(line: &[Point]) -> Vec<Point> {
-    line.iter().rev().copied().collect()
+/// For borders whose middles mislead because they cross, or one has a spike: both run the same way, with most of the
+/// area to the right of the left one.
+fn by_area(left: &[Point], right: &[Point]) -> (bool, bool) {
+    let turns_right = !are_parallel(left, right);
+    let turns_both = area(left, &turned(right, turns_right)) > 0.0;
+    (turns_both, turns_both != turns_right)
+}
+
+/// Whether the ends of two borders show that they do not run in opposite directions.
+fn are_parallel(left: &[Point], right: &[Point]) -> bool {
+    let ends = |line: &[Point]| (line[0], line[line.len() - 1]);
+    let ((left_start, left_end), (right_start, right_end)) = (ends(left), ends(right));
+    let apart = left_start.distance(&right_start) + left_end.distance(&right_end);
+    // Where a lane ends near its start, this tells nothing.
+    apart <= 2.0 * (left_start.distance(&right_end) + left_end.distance(&right_start))
+}
+
+/// Twice the area between two borders: negative if it lies to the right of the left one.
+fn area(left: &[Point], right: &[Point]) -> f64 {
+    let outline: Vec<Point> = left.iter().chain(right.iter().rev()).copied().collect();
+    outline.windows(2).map(|it| cross(outline[0], it[0], it[1])).sum()
+}
+
+fn turned(line: &[Point], is_reversed: bool) -> Vec<Point> {
+    if is_reversed { line.iter().rev().copied().collect() } else { line.to_vec() }
+}
+
+/// The line, without points that lie where the one before them does.
+fn without_repetitions(line: &[Point]) -> Vec<Point> {
+    let mut line = line.to_vec();
+    line.dedup_by(|b, a| a.distance(b) <= SAME);
+    line
 }
 
 fn middle(line: &[Point]) -> Point {
@@ -83,7 +127,30 @@ mod tests {
 
     #[test]
     fn doubled_points_do_not_disturb() {
-        let left = line(&[(0.0, 4.0), (0.0, 4.0), (10.0, 4.0), (10.0, 4.0)]);
-        assert_eq!(reversals(&left, &line(&[(0.0, 0.0), (10.0, 0.0)])), (false, false));
+        let right = line(&[(0.0, 0.0), (10.0, 0.0)]);
+        for x in [0.0, 5.0, 10.0] {
+            let left = line(&[(0.0, 4.0), (x, 4.0), (x, 4.0), (10.0, 4.0)]);
+            assert_eq!(reversals(&left, &right), (false, false), "{x}");
+            assert_eq!(reversals(&turned(&left, true), &right), (true, false), "{x}");
+        }
+    }
+
+    #[test]
+    fn a_spike_across_the_other_border_does_not_disturb() {
+        let right = line(&[(0.0, 0.0), (200.0, 0.0)]);
+        for x in [20.0, 95.0, 100.0, 110.0] {
+            let left = line(&[(0.0, 4.0), (x - 10.0, 4.0), (x, -3.0), (x + 10.0, 4.0), (200.0, 4.0)]);
+            for (l, r) in [(false, false), (true, false), (false, true), (true, true)] {
+                assert_eq!(reversals(&turned(&left, l), &turned(&right, r)), (l, r), "{x}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_border_at_one_place_runs_as_it_is_listed() {
+        let (bend, point) = (line(&[(0.0, 4.0), (3.0, 3.0), (4.0, 0.0)]), line(&[(0.0, 0.0), (0.0, 0.0)]));
+        assert_eq!(reversals(&bend, &point), (false, false));
+        assert_eq!(reversals(&turned(&bend, true), &point), (true, false));
+        assert_eq!(reversals(&point[..1], &bend), (false, true));
     }
 }

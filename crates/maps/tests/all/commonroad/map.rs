@@ -89,10 +89,14 @@ fn one_sided_links_are_problems() {
 
 #[test]
 fn lanelets_without_two_bounds_are_left_out() {
-    let (problems, lanelets) = broken("<point><x>200</x><y>7</y></point>", "");
+    let points = "<point><x>100</x><y>7</y></point><point><x>200</x><y>7</y></point>";
+    let (problems, lanelets) = broken(points, "");
     assert_eq!(problems.len(), 1);
-    assert!(problems[0].starts_with("lanelet 12 (line 3): its left border has no length, so it is left out"));
+    assert!(problems[0].starts_with("lanelet 12 (line 3): its left border has no points with finite"));
     assert_eq!((lanelets.len(), lanelets[0].following.len()), (4, 0));
+    let (problems, lanelets) = broken("<point><x>200</x><y>7</y></point>", "");
+    assert!(problems[0].starts_with("lanelet 12 (line 3): one of its borders is a single point"));
+    assert_eq!((problems.len(), lanelets.len()), (1, 5));
     for absurd in ["1e9", "NaN", "inf", "", "two", "-1e300"] {
         let point = format!("<point><x>{absurd}</x><y>7</y></point>");
         let (problems, lanelets) = broken("<point><x>200</x><y>7</y></point>", &point);

@@ -33,7 +33,8 @@ fn windows_of_ngsim_agree_with_the_reference_library() {
     for (name, expected) in expected {
         let Some(path) = data(&format!("recordings/ngsim_commonroad/{name}.xml")) else { continue };
         let map = load(&path, &ReadOptions::default()).expect("the map is sound");
-        assert_eq!(map.problems, [], "{name}");
+        // One of them has a bound with the same point twice.
+        assert!(map.problems.iter().all(|it| it.what.contains("one place twice")), "{name}");
         let lanelets = &map.network.lanelets;
         let count = |has: fn(&Lanelet) -> bool| lanelets.iter().filter(|it| has(it)).count();
         // The windows of US 101 have no signs: their tags give 130 km/h.
