@@ -8,6 +8,7 @@ use crate::contents::Contents;
 use crate::drawing::{Drawing, Edge, KMH_PER_MPS, Lane, Surroundings};
 use crate::error::MapError;
 use crate::graph::{self, Graph};
+use crate::loose_ends::loose_ends;
 use crate::map::Map;
 use crate::problem::Problem;
 use crate::shape::{Flaw, Shape};
@@ -49,6 +50,7 @@ impl Drawing {
         }
         let nodes = graph::nodes(self, &lanes);
         graph::link(&mut lanelets, &nodes);
+        problems.extend(loose_ends(self, &lanes, &lanelets, &nodes));
         let outlines: Vec<Option<Polygon>> = lanes.par_iter().map(|lane| self.outline(lane)).collect();
         let are_joined = |a: usize, b: usize| self.are_joined(&lanes[a], &lanes[b]);
         let mut conflicts = conflicts(&outlines, are_joined);

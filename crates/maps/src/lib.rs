@@ -20,6 +20,7 @@ mod graph;
 mod kind;
 mod law;
 mod load;
+mod loose_ends;
 mod map;
 mod options;
 mod problem;
@@ -28,6 +29,7 @@ mod routes;
 mod rule;
 mod shape;
 mod size;
+mod unused;
 pub mod xml;
 
 pub use check::check;

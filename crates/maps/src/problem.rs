@@ -1,5 +1,6 @@
 //! Problems of single elements of a map that is read nevertheless.
 
+use std::collections::HashMap;
 use std::fmt;
 
 use serde::Serialize;
@@ -20,6 +21,22 @@ pub struct Problem {
     pub remedy: String,
 }
 
+impl Problem {
+    /// The first problem of each kind, with their number, in the order in which they occurred.
+    pub fn kinds(problems: &[Problem]) -> Vec<(&Problem, u64)> {
+        let mut kinds: Vec<(&Problem, u64)> = Vec::new();
+        let mut places: HashMap<(&str, &str), usize> = HashMap::new();
+        for it in problems {
+            let place = *places.entry((&it.what, &it.remedy)).or_insert(kinds.len());
+            match kinds.get_mut(place) {
+                Some((_, count)) => *count += 1,
+                None => kinds.push((it, 1)),
+            }
+        }
+        kinds
+    }
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.element)?;
@@ -33,6 +50,20 @@ impl fmt::Display for Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn problems_of_a_kind_are_one_row() {
+        let problem = |element: &str, what: &str| Problem {
+            element: element.into(),
+            line: None,
+            what: what.into(),
+            remedy: "mend it".into(),
+        };
+        let problems = [problem("a", "bent"), problem("b", "broken"), problem("c", "bent")];
+        let kinds: Vec<(&str, u64)> =
+            Problem::kinds(&problems).into_iter().map(|(it, count)| (it.element.as_str(), count)).collect();
+        assert_eq!(kinds, [("a", 2), ("b", 1)]);
+    }
 
     #[test]
     fn a_problem_has_a_place_and_a_remedy() {

@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use laneweave_network::{LaneletIndex, Network, Priority, Regulations, StopKind, StopRule};
 
 use crate::map::Map;
+use crate::problem::Problem;
 use crate::rule::{Rule, RuleKind};
 
 /// The regulations for the junctions of `map`.
@@ -12,8 +13,7 @@ use crate::rule::{Rule, RuleKind};
 /// A light or stop sign to which no lanelet refers applies to the lanelets whose centre lines its stop lines cross.
 /// Beside a light, a stop sign does not count.
 pub fn regulations(map: &Map) -> Regulations {
-    let places = map.network.lanelets.iter().zip(0..).map(|(it, index)| (it.id, LaneletIndex(index)));
-    let lookup = Lookup { network: &map.network, places: places.collect() };
+    let lookup = Lookup::of(&map.network);
     let mut regulations = Regulations::default();
     for rule in &map.rules {
         if let RuleKind::RightOfWay { first, yielding } = &rule.kind {
@@ -42,12 +42,53 @@ pub fn regulations(map: &Map) -> Regulations {
     regulations
 }
 
+const BY_LINE: (&str, &str) = (
+    "no lanelet refers to it, so those obey it whose centre its stop lines cross",
+    "add it as regulatory_element to the lanelets whose drivers must obey it",
+);
+const UNOBEYED: (&str, &str) = (
+    "no lanelet for vehicles refers to it, and no stop line of it crosses one, so nobody obeys it",
+    "add it as regulatory_element to the lanelets whose drivers must obey it",
+);
+
+/// The problems of lights, signs and priorities that nobody obeys, or only those whom their stop lines tell.
+pub(crate) fn unobeyed(map: &Map) -> Vec<Problem> {
+    let lookup = Lookup::of(&map.network);
+    let mut problems = Vec::new();
+    for rule in &map.rules {
+        let obeying = match &rule.kind {
+            RuleKind::TrafficLight | RuleKind::StopSign => lookup.obeying(rule),
+            RuleKind::RightOfWay { yielding, .. } => lookup.all(yielding),
+            RuleKind::AllWayStop { lanelets } => lookup.all(lanelets),
+            RuleKind::Crosswalk { .. } | RuleKind::SpeedLimit | RuleKind::Other(_) => continue,
+        };
+        let is_by_line = matches!(rule.kind, RuleKind::TrafficLight | RuleKind::StopSign);
+        let (what, remedy) = match () {
+            () if obeying.is_empty() => UNOBEYED,
+            () if rule.lanelets.is_empty() && is_by_line => BY_LINE,
+            () => continue,
+        };
+        problems.push(Problem {
+            element: format!("regulatory element {}", rule.id),
+            line: rule.line,
+            what: format!("{}: {what}", rule.kind.name()),
+            remedy: remedy.into(),
+        });
+    }
+    problems
+}
+
 struct Lookup<'a> {
     network: &'a Network,
     places: HashMap<i64, LaneletIndex>,
 }
 
 impl Lookup<'_> {
+    fn of(network: &Network) -> Lookup<'_> {
+        let places = network.lanelets.iter().zip(0..).map(|(it, index)| (it.id, LaneletIndex(index)));
+        Lookup { network, places: places.collect() }
+    }
+
     fn all(&self, ids: &[i64]) -> Vec<LaneletIndex> {
         ids.iter().filter_map(|id| self.places.get(id).copied()).collect()
     }

@@ -110,7 +110,7 @@ const POINT: Flaw = Flaw {
     remedy: "draw it through at least two different points if it has a length",
 };
 const REPEATED: Flaw = Flaw {
-    what: "a border runs through one place twice in a row; the second point is ignored",
+    what: "a border runs through one place twice in a row, so the second point is ignored",
     remedy: "delete the second point",
 };
 const BACK: Flaw = Flaw {

@@ -9,6 +9,7 @@ use std::time::Instant;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::folder::DRAWS;
+use laneweave::maps::Problem;
 use laneweave::output::write_whole;
 use laneweave::run::{self, Resumed, Run};
 use laneweave::scenario::{Origin, Scenario, SumoFile, TableFormat, mixture};
@@ -23,8 +24,8 @@ use super::resume::same_run;
 use super::say;
 use super::stop::Stop;
 
-/// Problems of a map that are listed one by one.
-const LISTED_PROBLEMS: usize = 3;
+/// Maximum of kinds of problems of a map that are listed.
+const LISTED_KINDS: usize = 20;
 
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
@@ -297,12 +298,14 @@ fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> 
 
 /// Lists the problems of the map, its remarks, and the demand.
 fn warn(simulation: &Simulation) {
-    let problems = simulation.problems();
-    for problem in problems.iter().take(LISTED_PROBLEMS) {
-        complain(format_args!("warning: map: {problem}"));
+    let kinds = Problem::kinds(simulation.problems());
+    for (problem, count) in kinds.iter().take(LISTED_KINDS) {
+        let others = if *count > 1 { format!(" ({} more like it)", count - 1) } else { String::new() };
+        complain(format_args!("warning: map: {problem}{others}"));
     }
-    if problems.len() > LISTED_PROBLEMS {
-        complain(format_args!("warning: map: {} more problems like these", problems.len() - LISTED_PROBLEMS));
+    if kinds.len() > LISTED_KINDS {
+        let more = kinds.len() - LISTED_KINDS;
+        complain(format_args!("warning: map: {more} more kinds of problems; laneweave check lists them"));
     }
     for remark in simulation.remarks() {
         complain(format_args!("warning: map: {remark}"));

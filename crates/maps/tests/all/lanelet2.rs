@@ -144,9 +144,10 @@ fn limits_and_directions_that_cannot_be_used_are_listed_but_the_lane_stays() {
 }
 
 #[test]
-fn lanelets_that_are_not_for_cars_are_no_problem() {
+fn lanelets_that_are_not_for_vehicles_are_left_out_and_named() {
     let (problems, ids) = broken("<tag k='speed_limit' v='36'/>", "<tag k='subtype' v='walkway'/>");
-    assert_eq!((problems.len(), ids), (0, vec![21]));
+    assert_eq!((problems.len(), ids), (1, vec![21]));
+    assert!(problems[0].starts_with("lanelet 22 (line 13): lanelets of the subtype walkway, 1 in all: no"));
 }
 
 #[test]

@@ -6,3 +6,4 @@ mod other_formats;
 mod proportion;
 mod real_maps;
 mod robustness;
+mod unused;

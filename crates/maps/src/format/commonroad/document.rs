@@ -7,9 +7,11 @@ use laneweave_network::Point;
 use super::element::{Adjacent, LaneletElement, Sign};
 use super::obstacle::StaticObstacle;
 use super::rules;
+use super::unused;
 use crate::drawing::Crossing;
 use crate::problem::Problem;
 use crate::shape::MAXIMUM_COORDINATE;
+use crate::unused::Unused;
 use crate::xml::{Element, Visitor, XmlError, number, walk, with_point};
 
 /// The roads of a CommonRoad file.
@@ -18,6 +20,8 @@ pub(super) struct Document {
     pub(super) lanelets: Vec<LaneletElement>,
     pub(super) signs: Vec<Sign>,
     pub(super) obstacles: Vec<StaticObstacle>,
+    /// What traffic does not use.
+    pub(super) unused: Unused,
     /// The kind of road that the scenario names, such as `urban`.
     pub(super) tags: Vec<String>,
 }
@@ -70,6 +74,7 @@ impl Visitor for Drafts<'_> {
                     self.building = Building::Obstacle(Box::new(obstacle));
                 }
             }
+            _ if !path.contains('/') || path == "lanelet/stopLine" => self.note_unused(path, element)?,
             _ => match (&mut self.building, path.split_once('/')) {
                 (Building::Obstacle(obstacle), Some((_, part))) => obstacle.open(part),
                 (Building::Lanelet(lanelet), Some(("lanelet", part))) => {
@@ -118,6 +123,20 @@ impl Drafts<'_> {
         }
         // Version 2018b has them here, version 2020a as elements.
         self.document.tags.extend(tags.iter().flat_map(|it| it.split_whitespace()).map(String::from));
+        Ok(())
+    }
+
+    /// Counts an element that traffic does not use.
+    fn note_unused(&mut self, path: &str, element: &Element) -> Result<(), XmlError> {
+        if let Some((kind, name, meaning)) = unused::element(path) {
+            let [id] = element.values(["id"])?;
+            let of_lanelet = match &self.building {
+                Building::Lanelet(lanelet) => Some(lanelet.id),
+                _ => None,
+            };
+            let id = id.and_then(|it| it.parse().ok()).or(of_lanelet).unwrap_or_default();
+            self.document.unused.add(&kind, (name, id, element.line), meaning);
+        }
         Ok(())
     }
 

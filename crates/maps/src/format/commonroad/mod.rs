@@ -14,7 +14,7 @@
 //!
 //! Static obstacles are contents of the map. Dynamic ones are a recording.
 //!
-//! Traffic lights, stop lines, intersections and signs other than speed limits are ignored. Lanelets that overlap
+//! Traffic lights, stop lines, intersections and signs other than speed limits are ignored, and named as problems. Lanelets that overlap
 //! without a link stay without one.
 
 mod document;
@@ -23,8 +23,10 @@ mod links;
 mod obstacle;
 mod rules;
 mod speed;
+mod unused;
 
 use std::collections::hash_map::Entry;
+use std::mem;
 
 use laneweave_network::{Lanelet, LaneletIndex, Network};
 
@@ -55,12 +57,15 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
         return Err(MapError::TooLarge { largest: Size::MAXIMUM });
     }
     let mut problems = Vec::new();
-    let document = document::parse(bytes, &mut problems)?;
+    let mut document = document::parse(bytes, &mut problems)?;
+    let mut unused = mem::take(&mut document.unused);
     let mut contents = Contents::default();
     contents.obstacles.extend(document.obstacles.iter().filter_map(|it| it.ground(&mut problems)));
     let (elements, places, mut lanelets) =
         shaped(&document, options.law, &mut contents.limits_of_law, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);
+    unused::count(&document, &mut unused);
+    problems.extend(unused.problems());
     if lanelets.is_empty() {
         let remedy = "give lanelets two bounds and a laneletType for cars, such as urban";
         return Err(MapError::NotDrivable { lanelets: document.lanelets.len(), problems, remedy });

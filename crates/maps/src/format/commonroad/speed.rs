@@ -10,7 +10,7 @@ use crate::problem::Problem;
 /// Numbers of signs that show a maximum speed, in the catalogues that CommonRoad knows: of Germany (used for
 /// China and Italy, too) and of zones there, of the USA, Spain, Russia, Argentina, Belgium, France, Greece
 /// and Croatia.
-const SPEED_SIGNS: [&str; 10] =
+pub(super) const SPEED_SIGNS: [&str; 10] =
     ["274", "274.1", "R2-1", "r301", "3.24", "R15", "C43", "B14", "\u{3a1}-32", "B31"];
 /// Limits above this are taken as errors [km/h].
 const MAXIMUM: f64 = 500.0;

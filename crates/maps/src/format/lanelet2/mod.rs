@@ -13,6 +13,7 @@ mod regulation;
 mod rules;
 mod sharing;
 mod speed;
+mod unused;
 mod write;
 
 pub use compose::compose;
@@ -23,6 +24,7 @@ use crate::error::MapError;
 use crate::map::Map;
 use crate::options::ReadOptions;
 use crate::problem::{BORDERS, Problem};
+use crate::regulation::unobeyed;
 use crate::size::Size;
 use lookup::Lookup;
 
@@ -77,12 +79,14 @@ impl<'a> Document<'a> {
         let (lookup, origin) = Lookup::new(&self, options.origin, &mut problems)?;
         let mut contents = contents::contents(&self, &lookup, &mut problems);
         let drawing = draw::draw(&self, lookup, options, &mut contents, &mut problems);
+        problems.extend(unused::unused(&self, &drawing.rules).problems());
         let lanelets = self.relations_of_type("lanelet").count();
         // This frees its memory for the network.
         drop(self);
         match drawing.build() {
             Ok(mut map) => {
                 map.network.law = options.law.rules();
+                problems.extend(unobeyed(&map));
                 problems.extend(map.problems);
                 problems.sort_by_key(|it| it.line);
                 Ok(Map { contents, problems, origin, ..map })

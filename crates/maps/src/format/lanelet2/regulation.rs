@@ -58,13 +58,6 @@ impl Reader<'_> {
         if kind == RuleKind::StopSign && stop_lines.is_empty() && shows_line {
             std::mem::swap(&mut stop_lines, &mut signs);
         }
-        let needs_somebody = !matches!(kind, RuleKind::Other(_) | RuleKind::SpeedLimit);
-        if lanelets.is_empty() && needs_somebody {
-            self.complain(
-                "no lanelet refers to it, so it has no effect",
-                "add it as regulatory_element to the lanelets whose drivers must obey it",
-            );
-        }
         Rule {
             id: self.relation.id,
             line: Some(self.relation.line as usize),

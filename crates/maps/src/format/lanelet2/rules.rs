@@ -15,7 +15,7 @@ pub(super) type Flaw = (String, &'static str);
 const PARTICIPANT: &str = "participant:";
 
 /// The tags that say whether cars may use a lanelet in one direction only; the first one given decides.
-const ONE_WAY: [&str; 3] = ["one_way:vehicle:car", "one_way:vehicle", "one_way"];
+pub(super) const ONE_WAY: [&str; 3] = ["one_way:vehicle:car", "one_way:vehicle", "one_way"];
 
 /// Subtypes of lanelets: those of the tagging guide, and Autoware's `road_shoulder` and `pedestrian_lane`.
 const SUBTYPES: [&str; 14] = [
@@ -48,7 +48,8 @@ const LINES: [&str; 6] = ["solid", "solid_solid", "dashed", "dashed_solid", "sol
 pub(super) fn classes(lanelet: Tags) -> Classes {
     let keys = lanelet.all().filter(|(key, _)| key.starts_with(PARTICIPANT));
     let names_somebody = keys.map(|(key, _)| key).any(|it| flag(lanelet, it) == Some(true));
-    let usual = if names_somebody { Classes::NONE } else { classes_of_subtype(lanelet) };
+    let usual =
+        if names_somebody { Classes::NONE } else { classes_of(lanelet.get("subtype").unwrap_or("road")) };
     let may_use = |class: &Class| {
         let mut flags = keys_of(*class).into_iter().filter_map(|key| flag(lanelet, &key));
         flags.next().unwrap_or(usual.has(*class))
@@ -56,9 +57,24 @@ pub(super) fn classes(lanelet: Tags) -> Classes {
     Classes::ALL.iter().filter(may_use).collect()
 }
 
+/// Whether Lanelet2 has this subtype of lanelets.
+pub(super) fn is_subtype(subtype: &str) -> bool {
+    SUBTYPES.contains(&subtype)
+}
+
+/// Whether vehicles drive on lanelets of this subtype, if nothing else is said.
+pub(super) fn is_road(subtype: &str) -> bool {
+    !classes_of(subtype).is_empty()
+}
+
+/// Whether a tag `participant:…` names those for whom classes of vehicles stand.
+pub(super) fn is_known_participant(key: &str) -> bool {
+    Class::ALL.into_iter().any(|class| keys_of(class).iter().any(|it| it == key))
+}
+
 /// The classes for whom a lanelet of this subtype is.
-fn classes_of_subtype(lanelet: Tags) -> Classes {
-    match lanelet.get("subtype").unwrap_or("road") {
+fn classes_of(subtype: &str) -> Classes {
+    match subtype {
         "road" | "highway" | "play_street" | "exit" => Classes::ALL,
         "bus_lane" => Classes::BUS_LANE,
         _ => Classes::NONE,
@@ -167,13 +183,6 @@ pub(super) fn line_subtype(crossing: Crossing) -> &'static str {
 /// The tags of a lanelet that cannot be understood, and what is assumed.
 pub(super) fn flaws_of_lanelet(lanelet: Tags) -> Vec<Flaw> {
     let mut flaws = Vec::new();
-    match lanelet.get("subtype") {
-        Some(subtype) if !SUBTYPES.contains(&subtype) && !lanelet.any("participant:") => flaws.push((
-            format!("its subtype {subtype:?} is unknown, so it is not used as a road"),
-            "write road, highway or another of Lanelet2's subtypes, or add participant:vehicle=yes",
-        )),
-        _ => {}
-    }
     let mut keys: Vec<String> = Class::ALL.into_iter().flat_map(keys_of).collect();
     keys.sort_unstable();
     keys.dedup();
@@ -322,7 +331,6 @@ mod tests {
     #[test]
     fn slips_of_the_pen_are_flaws() {
         let lanelet = |key, value| with_tags([(key, value)], |it| flaws_of_lanelet(it).len());
-        assert_eq!([lanelet("subtype", "higway"), lanelet("subtype", "highway")], [1, 0]);
         assert_eq!([lanelet("participant:vehicle", "yse"), lanelet("participant:bicycle", "yes")], [1, 0]);
         assert_eq!([lanelet("one_way", "nope"), lanelet("one_way", "no")], [1, 0]);
         let border =

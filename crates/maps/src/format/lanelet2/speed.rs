@@ -11,6 +11,9 @@ use crate::problem::Problem;
 /// Limits above this are taken as errors [km/h].
 const MAXIMUM: f64 = 500.0;
 
+/// The tags of a lanelet with its limit; the first one given counts.
+pub(super) const KEYS: [&str; 3] = ["speed_limit:vehicle:car", "speed_limit:vehicle", "speed_limit"];
+
 /// The speed limit rules of a document.
 pub(super) struct SpeedRules<'d> {
     document: &'d Document<'d>,
@@ -54,7 +57,6 @@ impl<'d> SpeedRules<'d> {
         of_law: &mut Vec<f64>,
         problems: &mut Vec<Problem>,
     ) -> f64 {
-        const KEYS: [&str; 3] = ["speed_limit:vehicle:car", "speed_limit:vehicle", "speed_limit"];
         let tags = self.document.tags(lanelet.tags);
         let rules = self.document.members(lanelet, "relation", "regulatory_element");
         let by_rule = rules.filter_map(|id| self.rules.get(&self.lookup.relation(id)?));

@@ -1,7 +1,5 @@
 //! Problems and possible misunderstandings, with the remedy where there is one; and the methods of measurement.
 
-use std::collections::HashMap;
-
 use laneweave_maps::Problem;
 use laneweave_scenario::Remark;
 
@@ -28,7 +26,7 @@ pub(super) fn section(run: &RunReport) -> Section {
     for Remark { what, remedy } in &run.about.remarks {
         odd.row([what.clone(), remedy.clone()]);
     }
-    let kinds = kinds(&run.about.problems);
+    let kinds = Problem::kinds(&run.about.problems);
     let total = counted(run.about.problems.len() as u64);
     let caption = match kinds.len() {
         0..=MOST_KINDS => format!("Of the map: {total} elements that could not be used as they are."),
@@ -52,20 +50,6 @@ pub(super) fn section(run: &RunReport) -> Section {
             of_map,
             "No element of the map was left out when it was read; laneweave check examines the map in more detail.",
         )
-}
-
-/// The first problem of each kind, with their number, in the order in which they occurred.
-fn kinds(problems: &[Problem]) -> Vec<(&Problem, u64)> {
-    let mut kinds: Vec<(&Problem, u64)> = Vec::new();
-    let mut places: HashMap<(&str, &str), usize> = HashMap::new();
-    for it in problems {
-        let place = *places.entry((&it.what, &it.remedy)).or_insert(kinds.len());
-        match kinds.get_mut(place) {
-            Some((_, count)) => *count += 1,
-            None => kinds.push((it, 1)),
-        }
-    }
-    kinds
 }
 
 /// What is counted of a run, each with its name and the remedy.
@@ -162,23 +146,4 @@ pub(super) fn method() -> Section {
             "All counts are of the measured time after the warm-up. The same map, scenario, seed and version give the same report, bit \
              for bit, on any number of threads.",
         )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn problems_of_a_kind_are_one_row() {
-        let problem = |element: &str, what: &str| Problem {
-            element: element.into(),
-            line: None,
-            what: what.into(),
-            remedy: "mend it".into(),
-        };
-        let problems = [problem("a", "bent"), problem("b", "broken"), problem("c", "bent")];
-        let kinds: Vec<(&str, u64)> =
-            kinds(&problems).into_iter().map(|(it, count)| (it.element.as_str(), count)).collect();
-        assert_eq!(kinds, [("a", 2), ("b", 1)]);
-    }
 }
