@@ -19,6 +19,7 @@ mod format;
 mod graph;
 mod kind;
 mod law;
+mod left_hand;
 mod load;
 mod loose_ends;
 mod map;

@@ -20,8 +20,8 @@ const MAXIMUM_SHARING: usize = 32;
 /// An end, or a start, of a lane: its points on the left and on the right.
 type Corners = (u32, u32);
 
-/// The lanes that lead nowhere, or to which nothing leads, although they touch other lanes there; `lanelets` and `nodes`
-/// belong to `lanes`.
+/// The lanes that lead nowhere, or to which nothing leads, although they touch other lanes there. `lanelets` and
+/// `nodes` belong to `lanes`.
 pub(crate) fn loose_ends(
     drawing: &Drawing,
     lanes: &[Lane],
@@ -86,7 +86,8 @@ pub(crate) fn loose_ends(
     problems
 }
 
-const BOTH_POINTS: &str = "let both of its borders meet those of the other one there: where lanes join or part, draw a lanelet for each, all with both points";
+const BOTH_POINTS: &str = "let both of its borders meet those of the other one there, and where lanes join or part, draw a lanelet for each \
+                           of them between both points";
 const SPLIT: &str =
     "split the other lanelet there, and let one of its parts begin or end at the same two points";
 

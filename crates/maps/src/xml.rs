@@ -369,6 +369,17 @@ pub(crate) fn with_point(text: &str) -> Option<String> {
     (has_comma && !number(&better).is_nan()).then_some(better)
 }
 
+/// Refuses the `text` of a coordinate with a decimal comma, whose value is not a number: whatever wrote it writes all
+/// numbers so.
+pub(crate) fn refuse_comma(value: f64, line: usize, key: &str, text: &str) -> Result<(), XmlError> {
+    match Some(text).filter(|_| value.is_nan()).and_then(with_point) {
+        Some(better) => {
+            Err(XmlError::DecimalComma { line, key: key.into(), value: text.trim().into(), better })
+        }
+        None => Ok(()),
+    }
+}
+
 /// The number in `text`; NaN where it is unreadable.
 pub fn number(text: &str) -> f64 {
     text.trim().parse().unwrap_or(f64::NAN)

@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::maps::{FileKind, Size};
 use laneweave::output::write_whole;
-use laneweave::scenario::{Law, MapOptions, open_map};
+use laneweave::scenario::{DrivingSide, Law, MapOptions, open_map};
 use laneweave::{Fault, Windows, open_windows};
 use laneweave_studies::check::{
     GraphJson, Named, RecordingReport, Report, SetReport, explorer, picture, tracks,
@@ -55,6 +55,9 @@ pub(crate) struct Reading {
     /// The traffic law whose speed limits apply where the map gives none [default: germany].
     #[arg(long, value_parser = law())]
     law: Option<Law>,
+    /// On which side traffic drives [default: the side that the map gives, otherwise right].
+    #[arg(long, value_name = "SIDE", value_parser = driving_side())]
+    driving_side: Option<DrivingSide>,
     #[command(flatten)]
     size: Limit,
 }
@@ -79,6 +82,7 @@ impl Reading {
         MapOptions {
             origin: self.origin,
             law: self.law.unwrap_or_default(),
+            driving_side: self.driving_side,
             max_size_mb: self.size.mb(),
             ..MapOptions::default()
         }
@@ -94,6 +98,12 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 
 fn law() -> impl TypedValueParser<Value = Law> {
     PossibleValuesParser::new(["germany", "usa"]).map(|it| if it == "usa" { Law::Usa } else { Law::Germany })
+}
+
+/// A side of the road by its name.
+pub(super) fn driving_side() -> impl TypedValueParser<Value = DrivingSide> {
+    PossibleValuesParser::new(["left", "right"])
+        .map(|it| if it == "left" { DrivingSide::Left } else { DrivingSide::Right })
 }
 
 impl CheckArguments {

@@ -64,7 +64,7 @@ impl ReproduceArguments {
             return self.at_site(&effort);
         }
         if self.options.options() != MapOptions::default() {
-            let what = "--origin, --law and --max-map-size say how the map of a recorded site is read";
+            let what = "--origin, --law, --driving-side and --max-map-size say how the map of a recorded site is read";
             return Err(Fault::new("reproduce", what, "leave them out, or name the site with --site"));
         }
         let is_asked = |it: &&Experiment| self.experiments.iter().any(|name| name == it.name || name == ALL);

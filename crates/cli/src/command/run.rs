@@ -12,11 +12,11 @@ use laneweave::folder::DRAWS;
 use laneweave::maps::Problem;
 use laneweave::output::write_whole;
 use laneweave::run::{self, Resumed, Run};
-use laneweave::scenario::{Origin, Scenario, SumoFile, TableFormat, mixture};
+use laneweave::scenario::{DrivingSide, Origin, Scenario, SumoFile, TableFormat, mixture};
 use laneweave::style::Model;
 use laneweave::{Fault, Simulation};
 
-use super::check::{Limit, json};
+use super::check::{Limit, driving_side, json};
 use super::complain;
 use super::numbers::{number, seed, threads};
 use super::progress::Progress;
@@ -94,6 +94,9 @@ pub(crate) struct RunArguments {
     /// spread of what runs show comes from the parameters, and how much is chance.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000), conflicts_with = "resume")]
     draw_parameters: Option<u32>,
+    /// On which side traffic drives [default: the side that the map gives, otherwise right].
+    #[arg(long, value_name = "SIDE", value_parser = driving_side())]
+    driving_side: Option<DrivingSide>,
     /// Search for overlapping vehicles at every step, not only once a second.
     #[arg(long)]
     audit: bool,
@@ -225,6 +228,8 @@ impl RunArguments {
         let mixture = (!self.style.is_empty()).then(|| self.style.into_iter().collect());
         replace(origin, ("styles", "--style"), styles, mixture);
         replace(origin, ("model", "--model"), model, self.model.map(Some));
+        let side = self.driving_side.map(Some);
+        replace(origin, ("map_options.driving_side", "--driving-side"), &mut map_options.driving_side, side);
         let size = self.size.mb().map(Some);
         replace(origin, ("map_options.max_size_mb", "--max-map-size"), &mut map_options.max_size_mb, size);
     }

@@ -82,8 +82,11 @@ impl Shown {
     /// A simulation that runs now.
     fn simulated(&self, path: &Path, saved: &Path) -> Result<Box<dyn Source>, Fault> {
         let (mut scenario, origin) = Origin::open(path)?;
+        let options = self.options.options();
         if !matches!(FileKind::by_name(path), FileKind::Toml) {
-            scenario.map_options = self.options.options();
+            scenario.map_options = options;
+        } else if options.driving_side.is_some() {
+            scenario.map_options.driving_side = options.driving_side;
         }
         Ok(Box::new(Live::new(&scenario, &origin, saved.to_owned())?))
     }

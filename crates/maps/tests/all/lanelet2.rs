@@ -192,6 +192,21 @@ fn the_driving_side_is_the_option_then_what_the_map_says_then_right() {
 }
 
 #[test]
+fn a_map_that_lies_where_traffic_drives_on_the_left_and_does_not_say_so_is_warned_of() {
+    let tokyo = TWO_LANES.replacen("lat='0' lon='0'", "lat='35.68' lon='139.76'", 1);
+    let problems = |text: &str, driving_side| {
+        let options = ReadOptions { driving_side, ..ReadOptions::default() };
+        lanelet2::read(text.as_bytes(), &options).unwrap().problems
+    };
+    let found = problems(&tokyo, None);
+    assert_eq!((found.len(), found[0].element.as_str()), (1, "driving side"));
+    assert!(found[0].remedy.contains("--driving-side left"), "{found:?}");
+    assert_eq!(problems(&tokyo, Some(DrivingSide::Right)), []);
+    assert_eq!(problems(&tokyo.replace("<osm>", "<osm><MetaInfo driving_side='right'/>"), None), []);
+    assert_eq!(problems(TWO_LANES, None), []);
+}
+
+#[test]
 fn a_lanelet_lies_in_a_town_unless_the_map_says_otherwise() {
     let in_town = |tag: &str| {
         let text =

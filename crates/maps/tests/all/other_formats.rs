@@ -10,9 +10,9 @@ const CONVERT: &str = "; convert it to CommonRoad (.xml) or Lanelet2 (.osm) firs
 
 fn refusal(name: &str, content: impl AsRef<[u8]>) -> String {
     let file = std::env::temp_dir().join(format!("laneweave-maps-other-{}-{name}", std::process::id()));
-    fs::write(&file, content).unwrap();
-    let refusal = load(&file, &ReadOptions::default()).unwrap_err().to_string();
-    fs::remove_file(&file).unwrap();
+    fs::write(&file, content).expect("it is written");
+    let refusal = load(&file, &ReadOptions::default()).expect_err("it is no map").to_string();
+    fs::remove_file(&file).expect("it is removed");
     refusal
 }
 

@@ -89,6 +89,69 @@ fn a_page_of_a_map_finds_lanelets_by_their_ids() {
 }
 
 #[test]
+fn maps_of_other_formats_say_what_to_do() {
+    let streets = "<osm>\n<way id='7'><tag k='highway' v='residential'/></way></osm>";
+    let folder = Folder::new()
+        .with("town.xodr", "<OpenDRIVE/>")
+        .with("town.net.xml", "<net/>")
+        .with("town.osm.pbf", "\0\0\0\u{e}\n\tOSMHeader")
+        .with("streets.osm", streets)
+        .with("commas.osm", "<osm>\n<node id='1' lat='49,5' lon='8'/></osm>");
+    for (file, place, what, remedy) in [
+        ("town.xodr", "town.xodr: ", "an OpenDRIVE road network", "; convert it to CommonRoad"),
+        ("town.net.xml", "town.net.xml: ", "a SUMO road network", "; convert it to CommonRoad"),
+        ("town.osm.pbf", "town.osm.pbf: ", "binary OpenStreetMap data", "; a Lanelet2 map becomes .osm by"),
+        ("streets.osm", "streets.osm:2: ", "a street map of OpenStreetMap", "; convert it to CommonRoad"),
+        ("commas.osm", "commas.osm:2: ", "lat is \"49,5\", with a decimal comma", "; write a point"),
+    ] {
+        for command in ["run", "view --no-browser"] {
+            let run = folder.laneweave(&format!("{command} {file}"));
+            assert_eq!((run.code(), run.text().as_str()), (2, ""), "{command} {file}: {}", run.errors());
+            let told = run.errors();
+            assert!(told.starts_with(&format!("error: {place}")), "{told}");
+            assert!(told.contains(what) && told.contains(remedy), "{told}");
+        }
+    }
+}
+
+/// One lane of 100 m near Tokyo, and a crosswalk.
+const IN_JAPAN: &str = "<osm><node id='1' lat='35.68' lon='139.76' x='0' y='0'/><node id='2' lat='35.68' lon='139.76' x='300' y='0'/>
+<node id='3' lat='35.68' lon='139.76' x='0' y='4'/><node id='4' lat='35.68' lon='139.76' x='300' y='4'/>
+<way id='11'><nd ref='1'/><nd ref='2'/></way><way id='12'><nd ref='3'/><nd ref='4'/></way>
+<relation id='21'><member type='way' ref='12' role='left'/><member type='way' ref='11' role='right'/><tag k='type' v='lanelet'/>
+<tag k='speed_limit' v='50'/></relation>
+<relation id='31'><member type='way' ref='12' role='left'/><member type='way' ref='11' role='right'/><tag k='type' v='lanelet'/>
+<tag k='subtype' v='walkway'/></relation>
+<relation id='32'><member type='way' ref='12' role='left'/><member type='way' ref='11' role='right'/><tag k='type' v='lanelet'/>
+<tag k='subtype' v='walkway'/></relation>
+</osm>";
+
+#[test]
+fn check_and_run_name_what_traffic_does_not_use_and_the_driving_side() {
+    let folder = Folder::new().with("m.osm", IN_JAPAN);
+    let unused = "lanelet 31 (line 6): lanelets of the subtype walkway, 2 in all: no vehicle may drive there, and there are no \
+                  pedestrians, bicycles or trains; add participant:vehicle=yes if vehicles drive there\n";
+    let side = "driving side: the map seems to lie in Japan (an estimate), where traffic drives on the left";
+    let text = folder.laneweave("check m.osm").text();
+    assert!(text.contains(&format!("\n  {unused}")) && text.contains(&format!("\n  {side}")), "{text}");
+    let told = folder.laneweave("run m.osm --duration 1 --record 0 --demand 100").errors();
+    for problem in [unused, side] {
+        assert_eq!(told.matches(&format!("warning: map: {problem}")).count(), 1, "{told}");
+    }
+    let chosen = folder.laneweave("run m.osm --duration 1 --record 0 --demand 100 --driving-side left");
+    assert_eq!((chosen.code(), chosen.errors().contains("driving side")), (0, false), "{}", chosen.errors());
+    for side in ["left", "right"] {
+        let report = answer(&folder, &format!("check m.osm --json --driving-side {side}"));
+        assert_eq!((&report["driving_side"], list_of(&report["problems"])), (&json!(side), 1));
+    }
+    assert!(refusal(&folder, "check m.osm --driving-side middle").contains("[possible values: left, right]"));
+}
+
+fn list_of(it: &Value) -> usize {
+    it.as_array().map_or(0, Vec::len)
+}
+
+#[test]
 fn compressed_maps_are_maps() {
     let text = fs::read(maps().join("on_ramp.osm")).unwrap();
     let mut packed = GzEncoder::new(Vec::new(), Compression::fast());

@@ -45,32 +45,6 @@ fn maps_that_are_none() {
 }
 
 #[test]
-fn maps_of_other_formats_say_what_to_do() {
-    let streets = "<osm>\n<way id='7'><tag k='highway' v='residential'/></way></osm>";
-    let folder = Folder::new()
-        .with("town.xodr", "<OpenDRIVE/>")
-        .with("town.net.xml", "<net/>")
-        .with("town.osm.pbf", "\0\0\0\u{e}\n\tOSMHeader")
-        .with("streets.osm", streets)
-        .with("commas.osm", "<osm>\n<node id='1' lat='49,5' lon='8'/></osm>");
-    for (file, place, what, remedy) in [
-        ("town.xodr", "town.xodr: ", "an OpenDRIVE road network", "; convert it to CommonRoad"),
-        ("town.net.xml", "town.net.xml: ", "a SUMO road network", "; convert it to CommonRoad"),
-        ("town.osm.pbf", "town.osm.pbf: ", "binary OpenStreetMap data", "; a Lanelet2 map becomes .osm by"),
-        ("streets.osm", "streets.osm:2: ", "a street map of OpenStreetMap", "; convert it to CommonRoad"),
-        ("commas.osm", "commas.osm:2: ", "lat is \"49,5\", with a decimal comma", "; write a point"),
-    ] {
-        for command in ["run", "view --no-browser"] {
-            let run = folder.laneweave(&format!("{command} {file}"));
-            assert_eq!((run.code(), run.text().as_str()), (2, ""), "{command} {file}: {}", run.errors());
-            let told = run.errors();
-            assert!(told.starts_with(&format!("error: {place}")), "{told}");
-            assert!(told.contains(what) && told.contains(remedy), "{told}");
-        }
-    }
-}
-
-#[test]
 fn options_out_of_range() {
     let folder = Folder::new();
     for (option, message) in [

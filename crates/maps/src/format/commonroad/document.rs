@@ -20,6 +20,8 @@ pub(super) struct Document {
     pub(super) lanelets: Vec<LaneletElement>,
     pub(super) signs: Vec<Sign>,
     pub(super) obstacles: Vec<StaticObstacle>,
+    /// Latitude and longitude of its location [°]; the format has 999 for an unknown one.
+    pub(super) place: [Option<f64>; 2],
     /// What traffic does not use.
     pub(super) unused: Unused,
     /// The kind of road that the scenario names, such as `urban`.
@@ -104,6 +106,12 @@ impl Visitor for Drafts<'_> {
             }
             (Building::Sign(sign), Some((_, part))) => sign.close(part, text),
             (Building::Obstacle(obstacle), Some((_, part))) => obstacle.close(part, text, number(text)),
+            (Building::Nothing, Some(("location", "gpsLatitude"))) => {
+                self.document.place[0] = Some(number(text));
+            }
+            (Building::Nothing, Some(("location", "gpsLongitude"))) => {
+                self.document.place[1] = Some(number(text));
+            }
             (Building::Nothing, _) => {}
         }
     }

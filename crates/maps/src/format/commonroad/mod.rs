@@ -14,8 +14,8 @@
 //!
 //! Static obstacles are contents of the map. Dynamic ones are a recording.
 //!
-//! Traffic lights, stop lines, intersections and signs other than speed limits are ignored, and named as problems. Lanelets that overlap
-//! without a link stay without one.
+//! Traffic lights, stop lines, intersections and signs other than speed limits are ignored, and named as problems.
+//! Lanelets that overlap without a link stay without one.
 
 mod document;
 mod element;
@@ -35,6 +35,7 @@ use crate::drawing::Surroundings;
 use crate::error::MapError;
 use crate::graph::Graph;
 use crate::law::Law;
+use crate::left_hand;
 use crate::map::Map;
 use crate::options::ReadOptions;
 use crate::problem::Problem;
@@ -66,6 +67,8 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     links::connect(&elements, &places, &mut lanelets, &mut problems);
     unused::count(&document, &mut unused);
     problems.extend(unused.problems());
+    let [latitude, longitude] = document.place;
+    problems.extend(left_hand::warning(latitude.zip(longitude), None, options));
     if lanelets.is_empty() {
         let remedy = "give lanelets two bounds and a laneletType for cars, such as urban";
         return Err(MapError::NotDrivable { lanelets: document.lanelets.len(), problems, remedy });

@@ -21,6 +21,7 @@ pub use osm::Document;
 
 use crate::drawing::Drawing;
 use crate::error::MapError;
+use crate::left_hand;
 use crate::map::Map;
 use crate::options::ReadOptions;
 use crate::problem::{BORDERS, Problem};
@@ -68,6 +69,11 @@ impl<'a> Document<'a> {
         Some(MapError::Streets { line, way, streets: 1 + streets.count() })
     }
 
+    /// Latitude and longitude of the first node that has both [°].
+    fn place(&self) -> Option<(f64, f64)> {
+        self.nodes.iter().find_map(|it| Some((it.lat.get()?, it.lon.get()?)))
+    }
+
     /// The map of these elements, with the `problems` that are already known, and the problems found here.
     ///
     /// # Errors
@@ -79,6 +85,7 @@ impl<'a> Document<'a> {
         let (lookup, origin) = Lookup::new(&self, options.origin, &mut problems)?;
         let mut contents = contents::contents(&self, &lookup, &mut problems);
         let drawing = draw::draw(&self, lookup, options, &mut contents, &mut problems);
+        problems.extend(left_hand::warning(self.place(), self.driving_side, options));
         problems.extend(unused::unused(&self, &drawing.rules).problems());
         let lanelets = self.relations_of_type("lanelet").count();
         // This frees its memory for the network.

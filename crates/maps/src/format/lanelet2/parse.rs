@@ -7,7 +7,7 @@ use laneweave_network::DrivingSide;
 
 use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Tag, Way};
 use crate::problem::Problem;
-use crate::xml::{self, Element, Token, Tokens, XmlError, number, with_point};
+use crate::xml::{self, Element, Token, Tokens, XmlError, number, refuse_comma};
 
 /// Sets a coordinate called `key` that was not set before.
 ///
@@ -20,17 +20,6 @@ fn set(coordinate: &mut Coordinate, line: usize, key: &str, text: &str) -> Resul
         *coordinate = Coordinate::new(value);
     }
     Ok(())
-}
-
-/// Refuses the `text` of a coordinate with a decimal comma, whose value is not a number: whatever wrote it writes all
-/// numbers so.
-fn refuse_comma(value: f64, line: usize, key: &str, text: &str) -> Result<(), XmlError> {
-    match Some(text).filter(|_| value.is_nan()).and_then(with_point) {
-        Some(better) => {
-            Err(XmlError::DecimalComma { line, key: key.into(), value: text.trim().into(), better })
-        }
-        None => Ok(()),
-    }
 }
 
 /// Shorter files are read in one part [B].

@@ -175,6 +175,22 @@ fn other_xml_is_refused_with_what_was_expected() {
 }
 
 #[test]
+fn a_map_in_a_left_hand_country_is_warned_of() {
+    let at = |latitude: &str, longitude: &str| {
+        let place = format!(
+            "<location><gpsLatitude>{latitude}</gpsLatitude><gpsLongitude>{longitude}</gpsLongitude></location>"
+        );
+        problems(&read(&two_lanes().replacen("'>\n", &format!("'>{place}\n"), 1)).unwrap())
+    };
+    let found = at("51.5", "-0.1");
+    assert!(
+        found.len() == 1 && found[0].starts_with("driving side: the map seems to lie in Great"),
+        "{found:?}"
+    );
+    assert_eq!((at("49", "8"), at("999", "999")), (vec![], vec![]));
+}
+
+#[test]
 fn shuffled_lines_give_the_same_roads() {
     let text = two_lanes();
     let mut lines: Vec<&str> = text.lines().collect();
