@@ -72,7 +72,7 @@ impl Drone {
         tracks.extend(lost.into_iter().zip(free..).map(|(it, id)| Track { id, ..it }));
         tracks.retain(|it| !it.states.is_empty());
         tracks.iter_mut().for_each(|it| follow(&mut it.states, step));
-        Recording { step, tracks }
+        Recording { step, tracks, ..Recording::default() }
     }
 
     fn sees(&self, state: &State) -> bool {

@@ -44,7 +44,8 @@ impl Watch {
 
     /// What it has seen, by vehicle.
     pub fn into_recording(self) -> Recording {
-        Recording { step: self.step, tracks: self.tracks.into_values().collect() }
+        let tracks = self.tracks.into_values().collect();
+        Recording { step: self.step, tracks, ..Recording::default() }
     }
 }
 

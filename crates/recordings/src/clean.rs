@@ -18,14 +18,14 @@ pub use report::{CleaningReport, Example, Finding};
 /// acceleration, are put where the motion after and before them says. A speed that contradicts the positions by more
 /// than 5 m/s is replaced by that of smoothed positions. A heading more than 45° off the direction of motion is
 /// replaced in the same way.
-pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
+pub fn clean(mut recording: Recording) -> (Recording, CleaningReport) {
     let mut report = CleaningReport {
         states: recording.tracks.iter().map(|it| it.states.len()).sum(),
         ..Default::default()
     };
     let step = recording.step;
     let mut tracks = Vec::with_capacity(recording.tracks.len());
-    for track in recording.tracks {
+    for track in std::mem::take(&mut recording.tracks) {
         let mut noted = Noted { report: &mut report, track: track.id, step };
         let (length, width) = size(&track, &mut noted);
         let states = readable(track.states, &mut noted);
@@ -35,7 +35,7 @@ pub fn clean(recording: Recording) -> (Recording, CleaningReport) {
             tracks.push(Track { id: track.id, class: track.class, length, width, states });
         }
     }
-    (Recording { step, tracks }, report)
+    (Recording { tracks, ..recording }, report)
 }
 
 /// The track's length and width, or the usual ones.

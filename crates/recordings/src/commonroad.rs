@@ -40,7 +40,7 @@ pub fn read(bytes: &[u8]) -> Result<(Recording, Vec<Problem>), RecordingError> {
     if tracks.is_empty() {
         return Err(RecordingError::Empty { problems });
     }
-    Ok((Recording { step, tracks }, problems))
+    Ok((Recording { step, tracks, ..Recording::default() }, problems))
 }
 
 /// A recording under construction, obstacle by obstacle.

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::recording::RoadUser;
-use crate::table::{AngleUnit, Axes, Columns, Layout, LengthUnit, Point, TimeUnit, Units};
+use crate::table::{AngleUnit, Axes, Columns, Dialect, Fields, Layout, LengthUnit, Point, TimeUnit, Units};
 
 /// A dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,9 @@ pub enum Dataset {
     Ngsim,
 }
 
+/// The first columns of NGSIM's text files, which have no header.
+const NGSIM_HEADER: &str = "Vehicle_ID Frame_ID Total_Frames Global_Time Local_X Local_Y Global_X Global_Y v_Length \
+                            v_Width v_Class v_Vel";
 /// The classes of NGSIM by their numbers.
 const NGSIM_CLASSES: [(&str, RoadUser); 3] =
     [("1", RoadUser::Motorcycle), ("2", RoadUser::Car), ("3", RoadUser::Truck)];
@@ -51,16 +54,19 @@ impl Dataset {
         }
     }
 
-    /// The dataset whose columns a header has; `None` if it is of none that we know.
-    pub fn of_header(header: &[u8]) -> Option<Dataset> {
-        let names: Vec<&[u8]> = header.split(|it| *it == b',').map(crate::table::bare).collect();
-        let has = |name: &str| names.contains(&name.as_bytes());
+    /// The dataset whose columns a table has that begins with `start`; `None` if it is of none that we know.
+    pub fn of_start(start: &[u8]) -> Option<Dataset> {
+        Dialect::first_row(start, Dataset::of_row)?
+    }
+
+    fn of_row(first: &Fields) -> Option<Dataset> {
+        let has = |name: &str| first.place(&[name]).is_some();
         // What sets a dataset apart from the others.
         let marks = |it: &Dataset| match it {
             Dataset::Interaction => has("track_id"),
             Dataset::HighD => has("xVelocity") && has("height") && has("id"),
             Dataset::InD => has("xCenter") && has("trackId"),
-            Dataset::Ngsim => has("Vehicle_ID") && has("Local_X"),
+            Dataset::Ngsim => has("Vehicle_ID") && has("Local_X") || is_ngsim_without_header(first),
         };
         Dataset::ALL.into_iter().find(marks)
     }
@@ -81,6 +87,12 @@ impl Dataset {
     }
 }
 
+/// Whether a row is one of the published text files: 18 numbers on motorways, 24 in towns.
+fn is_ngsim_without_header(row: &Fields) -> bool {
+    matches!(row.len(), 18 | 24)
+        && row.iter().all(|it| str::from_utf8(it).is_ok_and(|it| it.parse::<f64>().is_ok()))
+}
+
 fn some(name: &str) -> Option<String> {
     Some(name.to_owned())
 }
@@ -92,6 +104,8 @@ fn classes(of: &[(&str, RoadUser)]) -> BTreeMap<String, RoadUser> {
 fn interaction() -> Layout {
     Layout {
         units: Units { time: TimeUnit::Milliseconds, ..Units::default() },
+        // Tables of its challenges hold many short recordings.
+        same: some("case_id"),
         classes: classes(&INTERACTION_CLASSES),
         ..Layout::of_columns(Columns {
             track: "track_id".into(),
@@ -134,6 +148,7 @@ fn ind() -> Layout {
     Layout {
         units: Units { angle: AngleUnit::Degrees, ..Units::default() },
         frames_per_second: Some(25.0),
+        same: some("recordingId"),
         ..Layout::of_columns(Columns {
             track: "trackId".into(),
             frame: some("frame"),
@@ -159,6 +174,7 @@ fn ngsim() -> Layout {
         frames_per_second: Some(10.0),
         reused_after_s: Some(PAUSE),
         same: some("Location"),
+        header: Some(NGSIM_HEADER.split(' ').map(str::to_owned).collect()),
         classes: classes(&NGSIM_CLASSES),
         ..Layout::of_columns(Columns {
             track: "Vehicle_ID".into(),

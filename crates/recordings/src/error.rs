@@ -154,7 +154,7 @@ pub enum RecordingError {
     },
     /// A layout is no TOML that says what columns hold.
     #[error(
-        "{what}; the keys are columns, units, point, axes, frames_per_second, reused_after_s, same, classes"
+        "{what}; the keys are columns, units, point, axes, frames_per_second, reused_after_s, same, header, classes"
     )]
     Layout {
         /// What is wrong with it, and where.

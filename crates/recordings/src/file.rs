@@ -12,7 +12,7 @@ use crate::error::RecordingError;
 #[cfg(feature = "parquet")]
 use crate::parquet::ParquetLines;
 use crate::recording::Recording;
-use crate::table::{Known, Layout, read};
+use crate::table::{Dialect, Known, Layout, file_beside, read};
 
 /// Size of the parts in which a table is read [B].
 const PART: usize = 1 << 20;
@@ -69,22 +69,22 @@ fn table(
     path: &Path,
     layout: Option<&Layout>,
 ) -> Result<(Recording, Vec<Problem>), RecordingError> {
+    let mut problems: Vec<Problem> = file_beside(path, layout.is_some()).into_iter().collect();
     if let Some(layout) = layout {
-        return read(file, layout, &Known::default());
+        let (recording, more) = read(file, layout, &Known::default())?;
+        problems.extend(more);
+        return Ok((recording, problems));
     }
     let start = file.fill_buf()?;
-    let header = start.split(|it| *it == b'\n').next().unwrap_or_default();
-    let header = header.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(header).trim_ascii_end();
-    let Some(dataset) = Dataset::of_header(header) else {
-        let found = String::from_utf8_lossy(&header[..header.len().min(200)]).into_owned();
+    let Some(dataset) = Dataset::of_start(start) else {
         return Err(RecordingError::UnknownTable {
-            found,
+            found: Dialect::first_row(start, |it| it.excerpt()).unwrap_or_default(),
             known: Dataset::ALL.map(Dataset::name).join("; "),
         });
     };
-    let (known, mut problems) =
+    let (known, missing) =
         if dataset.has_other_files() { Known::beside(path)? } else { (Known::default(), Vec::new()) };
     let (recording, more) = read(file, &dataset.layout(), &known)?;
-    problems.extend(more);
+    problems.extend(missing.into_iter().chain(more));
     Ok((recording, problems))
 }

@@ -5,11 +5,11 @@
 //! where that recording ends, moved on for some time. The offset in time is the mean over the vehicles that agree with
 //! the median. Without an offset that fits, the window continues none of the others.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use thiserror::Error;
 
-use crate::recording::{Recording, State, Track};
+use crate::recording::{Recording, State, Track, free_ids};
 use crate::smooth::{Motion, motion};
 
 /// Positions this long before and after the cut give the motion there [s].
@@ -84,7 +84,8 @@ pub struct Series {
 
 /// Joins recordings as far as they continue one another, in any order. One that continues none of the others is a
 /// series of its own.
-pub fn series(parts: Vec<Recording>) -> Vec<Series> {
+pub fn series(mut parts: Vec<Recording>) -> Vec<Series> {
+    number_by_names(&mut parts);
     let mut left: Vec<(usize, Recording)> = (1..).zip(parts).collect();
     let mut all: Vec<Series> = Vec::new();
     let mut apart: HashMap<usize, JoinError> = HashMap::new();
@@ -116,10 +117,29 @@ pub fn join(parts: Vec<Recording>) -> Result<Joined, JoinError> {
     apart.map_or_else(|| all.pop().map(|it| it.joined).ok_or(JoinError::Nothing), Err)
 }
 
+/// Gives tracks with the same name the same id in all `parts`.
+fn number_by_names(parts: &mut [Recording]) {
+    let is_named = |part: &Recording, id: i64| part.names.contains_key(&id);
+    let own = parts
+        .iter()
+        .flat_map(|part| part.tracks.iter().map(|it| it.id).filter(move |it| !is_named(part, *it)));
+    let mut free = free_ids(own.collect());
+    let mut ids: HashMap<String, i64> = HashMap::new();
+    for part in parts {
+        let mut names = BTreeMap::new();
+        for track in &mut part.tracks {
+            let Some(name) = part.names.get(&track.id) else { continue };
+            track.id = *ids.entry(name.clone()).or_insert_with(|| free.next().unwrap_or_default());
+            names.insert(track.id, name.clone());
+        }
+        part.names = names;
+    }
+}
+
 /// What was joined so far.
 struct Whole {
-    step: f64,
-    tracks: Vec<Track>,
+    /// With all tracks.
+    recording: Recording,
     /// The latest track of each id.
     by_id: HashMap<i64, usize>,
     /// The number of each recording, from 1 on, and that of its frame 0 in the whole.
@@ -146,8 +166,7 @@ struct Pair<'a> {
 impl Whole {
     fn of(first: Recording, number: usize) -> Whole {
         let by_id = first.tracks.iter().enumerate().map(|(index, it)| (it.id, index)).collect();
-        let Recording { step, tracks } = first;
-        Whole { step, tracks, by_id, offsets: vec![(number, 0)], continued: 0, renamed: 0 }
+        Whole { recording: first, by_id, offsets: vec![(number, 0)], continued: 0, renamed: 0 }
     }
 
     /// Which of `left` continues it with the least time between, and where it belongs.
@@ -161,7 +180,7 @@ impl Whole {
     /// The vehicles of `part` whose ids are known.
     fn pairs<'a>(&'a self, part: &'a Recording) -> Vec<Pair<'a>> {
         let pair = |track: &'a Track| {
-            let before = &self.tracks[*self.by_id.get(&track.id)?].states;
+            let before = &self.recording.tracks[*self.by_id.get(&track.id)?].states;
             (!before.is_empty() && !track.states.is_empty()).then_some(Pair { before, after: &track.states })
         };
         part.tracks.iter().filter_map(pair).collect()
@@ -169,11 +188,11 @@ impl Whole {
 
     /// Where `part` belongs.
     fn fit_of(&self, part: &Recording, number: usize) -> Result<Fit, JoinError> {
-        if (part.step - self.step).abs() > 1e-6 {
-            return Err(JoinError::Step { number, found: part.step, expected: self.step });
+        if (part.step - self.recording.step).abs() > 1e-6 {
+            return Err(JoinError::Step { number, found: part.step, expected: self.recording.step });
         }
         let pairs = self.pairs(part);
-        let agreeing = |offset: i64| pairs.iter().filter(|it| it.fits(offset, self.step)).count();
+        let agreeing = |offset: i64| pairs.iter().filter(|it| it.fits(offset, self.recording.step)).count();
         // Frames that are counted on are those that the dataset means, if vehicles agree.
         let by_places = self.by_places(&pairs).filter(|it| agreeing(*it) > agreeing(0));
         let offset = by_places.unwrap_or(0);
@@ -181,37 +200,38 @@ impl Whole {
         if agreeing == 0 || (agreeing as f64) < SHARE * common as f64 {
             return Err(JoinError::Elsewhere { number, common, agreeing });
         }
-        let missing = pairs.iter().filter(|it| it.fits(offset, self.step)).map(|it| it.missing(offset));
-        Ok(Fit { offset, missing: missing.min().unwrap_or(0) as f64 * self.step })
+        let missing =
+            pairs.iter().filter(|it| it.fits(offset, self.recording.step)).map(|it| it.missing(offset));
+        Ok(Fit { offset, missing: missing.min().unwrap_or(0) as f64 * self.recording.step })
     }
 
     /// The offset that fits the places of vehicles best.
     fn by_places(&self, pairs: &[Pair]) -> Option<i64> {
-        let mut lags: Vec<f64> = pairs.iter().filter_map(|it| it.lag(self.step)).collect();
+        let mut lags: Vec<f64> = pairs.iter().filter_map(|it| it.lag(self.recording.step)).collect();
         lags.sort_by(f64::total_cmp);
         let median = *lags.get(lags.len() / 2)?;
         /// Lags that differ by more than this from the median are those of other vehicles with the same ids [s].
         const NEAR: f64 = 0.5;
         let near: Vec<f64> = lags.into_iter().filter(|it| (it - median).abs() < NEAR).collect();
         let mean = near.iter().sum::<f64>() / near.len() as f64;
-        Some((mean / self.step).round() as i64)
+        Some((mean / self.recording.step).round() as i64)
     }
 
     /// Adds `part` with its frame 0 at `offset`.
     fn add(&mut self, part: Recording, number: usize, offset: i64) {
-        let mut free = self.tracks.iter().chain(&part.tracks).map(|it| it.id).max().unwrap_or(0) + 1;
+        let mut free = free_ids(self.recording.tracks.iter().chain(&part.tracks).map(|it| it.id).collect());
         let known = self.by_id.clone();
         for mut track in part.tracks {
-            let step = self.step;
+            let step = self.recording.step;
             let before = known.get(&track.id).copied();
             let is_same = before.is_some_and(|it| {
-                let (before, after) = (&self.tracks[it].states[..], &track.states[..]);
+                let (before, after) = (&self.recording.tracks[it].states[..], &track.states[..]);
                 before.is_empty() || after.is_empty() || Pair { before, after }.fits(offset, step)
             });
             track.states.iter_mut().for_each(|it| it.frame += offset);
             match before.filter(|_| is_same) {
                 Some(index) => {
-                    let states = &mut self.tracks[index].states;
+                    let states = &mut self.recording.tracks[index].states;
                     states.append(&mut track.states);
                     // Of a frame that both have the first counts: the order of equal ones stays.
                     states.sort_by_key(|it| it.frame);
@@ -219,13 +239,14 @@ impl Whole {
                     self.continued += 1;
                 }
                 None => {
+                    let name = part.names.get(&track.id);
                     if before.is_some() {
-                        track.id = free;
-                        free += 1;
+                        track.id = free.next().unwrap_or(track.id);
                         self.renamed += 1;
                     }
-                    self.by_id.insert(track.id, self.tracks.len());
-                    self.tracks.push(track);
+                    self.recording.names.extend(name.map(|it| (track.id, it.clone())));
+                    self.by_id.insert(track.id, self.recording.tracks.len());
+                    self.recording.tracks.push(track);
                 }
             }
         }
@@ -234,10 +255,10 @@ impl Whole {
 
     /// The whole, and the numbers of its recordings.
     fn finish(self) -> (Joined, Vec<usize>) {
-        let Whole { step, tracks, mut offsets, continued, renamed, .. } = self;
+        let Whole { recording, mut offsets, continued, renamed, .. } = self;
         offsets.sort_unstable();
         let (numbers, offsets) = offsets.into_iter().unzip();
-        (Joined { recording: Recording { step, tracks }, offsets, continued, renamed }, numbers)
+        (Joined { recording, offsets, continued, renamed }, numbers)
     }
 }
 

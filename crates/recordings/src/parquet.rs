@@ -31,12 +31,16 @@ impl ParquetLines {
         let opened = guarded(|| {
             let reader = SerializedFileReader::new(file)?;
             let schema = reader.metadata().file_metadata().schema_descr();
-            let names: Vec<&str> = schema.columns().iter().map(|it| it.name()).collect();
-            let header = names.join(",") + "\n";
+            let mut header = Vec::new();
+            for (number, column) in schema.columns().iter().enumerate() {
+                header.extend((number > 0).then_some(b','));
+                quoted(column.name(), &mut header);
+            }
+            header.push(b'\n');
             Ok((reader.into_iter(), header))
         });
         let (rows, header) = opened.map_err(|error| RecordingError::Parquet { what: error.to_string() })?;
-        Ok(ParquetLines { rows, made: header.into_bytes(), read: 0 })
+        Ok(ParquetLines { rows, made: header, read: 0 })
     }
 
     /// Makes further lines.
@@ -82,18 +86,24 @@ fn line(row: &Row, out: &mut Vec<u8>) -> io::Result<()> {
         }
         match field {
             Field::Null => {}
-            Field::Str(text) => out.extend(text.bytes().filter(|it| !matches!(it, b',' | b'\n' | b'\r'))),
+            Field::Str(text) => quoted(text, out),
             Field::Int(it) => write!(out, "{it}")?,
             Field::Long(it) => write!(out, "{it}")?,
             Field::Float(it) => write!(out, "{it}")?,
             Field::Double(it) => write!(out, "{it}")?,
             Field::TimestampMillis(it) | Field::TimestampMicros(it) => write!(out, "{it}")?,
-            // Whatever else it is, it is no number: a comma would begin another field.
-            other => out.extend(other.to_string().bytes().filter(|it| !matches!(it, b',' | b'\n' | b'\r'))),
+            other => quoted(&other.to_string(), out),
         }
     }
     out.push(b'\n');
     Ok(())
+}
+
+/// Writes a text that may have separators and quotes in it.
+fn quoted(text: &str, out: &mut Vec<u8>) {
+    out.push(b'"');
+    out.extend(text.replace('"', "\"\"").bytes());
+    out.push(b'"');
 }
 
 /// What `read` returns. The reader of the crate panics on some damaged files: that is an error, too.

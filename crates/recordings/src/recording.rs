@@ -1,5 +1,8 @@
 //! Recorded traffic as plain data.
 
+use std::collections::{BTreeMap, HashSet};
+
+use laneweave_maps::lanelet2::utm;
 use serde::Deserialize;
 
 /// Recorded traffic in the metric frame of its map.
@@ -9,12 +12,16 @@ pub struct Recording {
     pub step: f64,
     /// The road users. Parts of a track that was interrupted have the same id.
     pub tracks: Vec<Track>,
+    /// By the id of its track, what the file has as an id where that is no number.
+    pub names: BTreeMap<i64, String>,
+    /// East and north of the origin of its positions in the UTM zone of the place [m], where the file gives it.
+    pub utm_origin: Option<[f64; 2]>,
 }
 
 /// One road user through its frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    /// Its id in the file.
+    /// Its id in the file, or a number in its place.
     pub id: i64,
     /// Its class.
     pub class: RoadUser,
@@ -109,7 +116,33 @@ impl RoadUser {
     }
 }
 
+/// Numbers beyond all `taken` ones, or, where one of those is very large, between them.
+pub(crate) fn free_ids(taken: HashSet<i64>) -> impl Iterator<Item = i64> {
+    /// Larger numbers are not exact everywhere.
+    const LARGE: i64 = 1 << 52;
+    let last = taken.iter().max().copied().unwrap_or(0);
+    let first = if last < LARGE { last.max(0) + 1 } else { 1 };
+    (first..).filter(move |it| !taken.contains(it))
+}
+
 impl Recording {
+    /// Moves its positions into the frame of a map with its (0, 0) at this latitude and longitude [°]. Without both
+    /// origins it stays where it is.
+    pub fn place(&mut self, origin: Option<(f64, f64)>) {
+        let there = origin.and_then(|(latitude, longitude)| utm(latitude, longitude));
+        let Some(([x, y], there)) = self.utm_origin.zip(there) else { return };
+        let (east, north) = (x - there[0], y - there[1]);
+        for state in self.tracks.iter_mut().flat_map(|it| &mut it.states) {
+            (state.x, state.y) = (state.x + east, state.y + north);
+        }
+        self.utm_origin = Some(there);
+    }
+
+    /// The id of a track as the file has it.
+    pub fn name(&self, id: i64) -> String {
+        self.names.get(&id).cloned().unwrap_or_else(|| id.to_string())
+    }
+
     /// First and last frame with a road user.
     pub fn frames(&self) -> Option<(i64, i64)> {
         let first = self.tracks.iter().filter_map(|it| it.states.first()).map(|it| it.frame).min()?;

@@ -47,7 +47,7 @@ pub fn open_windows(paths: &[PathBuf], columns: Option<&Path>) -> Result<Windows
     notes.extend(others.iter().map(|it| format!("{it} is left out: the others hold more")));
     let whole = longest.and_then(|it| all.into_iter().nth(it));
     let (files, recording) = whole.map_or_else(
-        || (Vec::new(), Recording { step: 0.1, tracks: Vec::new() }),
+        || (Vec::new(), Recording { step: 0.1, ..Recording::default() }),
         |it| (it.numbers.iter().map(|it| paths[it - 1].clone()).collect(), it.joined.recording),
     );
     Ok(Windows { recording, files, problems, notes })
@@ -125,7 +125,7 @@ mod tests {
             let states = (from..=to).map(state).collect();
             Track { id, class: RoadUser::Car, length: 4.5, width: 1.8, states }
         };
-        Recording { step: 0.1, tracks: vec![track(1), track(2)] }
+        Recording { step: 0.1, tracks: vec![track(1), track(2)], ..Recording::default() }
     }
 
     #[test]

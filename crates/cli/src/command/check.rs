@@ -184,8 +184,10 @@ impl CheckArguments {
     }
 
     fn recording(&self, map: &Path) -> Result<(), Fault> {
-        let Windows { recording, problems, notes, .. } = open_windows(&self.files, self.columns.as_deref())?;
+        let Windows { mut recording, problems, notes, .. } =
+            open_windows(&self.files, self.columns.as_deref())?;
         let map = open_map(map, &self.options.options())?;
+        recording.place(map.origin);
         let mut report = RecordingReport::of(recording, &problems, &map.network);
         report.windows = notes;
         say(&if self.json { json(&report)? } else { report.to_text() })

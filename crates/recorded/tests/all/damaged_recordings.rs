@@ -113,6 +113,6 @@ proptest! {
         let state = |(frame, x, y, heading)| State { frame, x, y, speed: 20.0, heading };
         let states = states.into_iter().map(state).collect();
         let track = Track { id: 1, class: RoadUser::Car, length: 4.5, width: 1.8, states };
-        use_it(Recording { step, tracks: vec![track] });
+        use_it(Recording { step, tracks: vec![track], ..Recording::default() });
     }
 }

@@ -36,7 +36,7 @@ fn assumed(_: usize) -> Assumed {
 
 /// Shows a recording as its drivers see it.
 fn replay(network: &Network, tracks: Vec<Track>, look: impl FnOnce(&Replay)) {
-    let recording = Recording { step: STEP, tracks };
+    let recording = Recording { step: STEP, tracks, ..Recording::default() };
     let matched = Matched::new(network, &recording);
     let (navigator, driver_parameters) = (Navigator::new(network), [usual()]);
     let changes = lane_changes(&matched);
@@ -80,7 +80,7 @@ fn a_change_goes_on_from_the_beginning_to_the_end_of_the_way_across() {
     let network = road(2000.0, Vec::new());
     let aside = |time: f64| SLOW + WIDTH * moved_share((time - 8.0) / 5.0);
     let track = car(1, 100.0, 30.0, 20.0, aside);
-    let recording = Recording { step: STEP, tracks: vec![track.clone()] };
+    let recording = Recording { step: STEP, tracks: vec![track.clone()], ..Recording::default() };
     let matched = Matched::new(&network, &recording);
     let [Extent { began, ended }] = extents(&matched, &lane_changes(&matched))[..] else {
         panic!("one change")
@@ -218,7 +218,7 @@ fn a_desired_speed_is_that_which_a_driver_stays_below_most_of_the_time() {
     held_up.states[states * 8 / 10..].iter_mut().for_each(|it| it.speed = 0.8 * limit);
     let fast = car(2, 100.0, 1.2 * limit, 40.0, |_| SLOW + WIDTH);
     let truck = Track { class: RoadUser::Truck, length: 12.0, ..car(3, 100.0, 20.0, 40.0, |_| SLOW) };
-    let recording = Recording { step: STEP, tracks: vec![held_up, fast, truck] };
+    let recording = Recording { step: STEP, tracks: vec![held_up, fast, truck], ..Recording::default() };
     let matched = Matched::new(&network, &recording);
     let factor = |track| Assumed::by_its_speeds(&matched, track, 0).speed_factor;
     assert_near(factor(0), 0.8);
@@ -229,7 +229,8 @@ fn a_desired_speed_is_that_which_a_driver_stays_below_most_of_the_time() {
 #[test]
 fn impossible_drivers_are_refused() {
     let network = road(1000.0, Vec::new());
-    let recording = Recording { step: STEP, tracks: vec![car(7, 100.0, 20.0, 3.0, |_| SLOW)] };
+    let recording =
+        Recording { step: STEP, tracks: vec![car(7, 100.0, 20.0, 3.0, |_| SLOW)], ..Recording::default() };
     let matched = Matched::new(&network, &recording);
     let (navigator, driver_parameters) = (Navigator::new(&network), [usual()]);
     let refusal = |parameters, speed_factor| {

@@ -14,13 +14,22 @@ const HEADER: &str = "track_id,frame_id,timestamp_ms,agent_type,x,y,vx,vy,psi_ra
 pub fn write(recording: &Recording, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "{HEADER}")?;
     for track in &recording.tracks {
-        write_track(track, recording.step, out)?;
+        write_track(track, &field(recording.name(track.id)), recording.step, out)?;
     }
     Ok(())
 }
 
-fn write_track(track: &Track, step: f64, out: &mut impl Write) -> io::Result<()> {
-    let Track { id, length, width, .. } = track;
+/// A text as a field: in quotes, if it would be another one without.
+fn field(text: String) -> String {
+    if text.contains(['"', ',', ';', '\t', '\r', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text
+    }
+}
+
+fn write_track(track: &Track, id: &str, step: f64, out: &mut impl Write) -> io::Result<()> {
+    let Track { length, width, .. } = track;
     let class = name(track.class);
     for state in &track.states {
         let time_ms = (state.frame as f64 * step * 1000.0).round() as i64;

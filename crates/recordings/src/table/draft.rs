@@ -1,16 +1,17 @@
 //! A recording under construction, row by row.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use laneweave_maps::Problem;
 
+use super::id::Id;
 use super::known::Known;
 use super::layout::{Axes, Field, Layout, Point};
 use super::row::{Class, Flaw, Row};
 use super::times::{Times, in_range, shortest};
 use crate::error::RecordingError;
 use crate::problems::Problems;
-use crate::recording::{Recording, RoadUser, State, Track};
+use crate::recording::{Recording, RoadUser, State, Track, free_ids};
 use crate::smooth::motion;
 
 /// Positions this long before and after a moment give a motion that the table does not give [s].
@@ -24,7 +25,7 @@ pub(super) struct Draft<'a> {
     known: &'a Known,
     rows: usize,
     tracks: Vec<Reading>,
-    by_id: HashMap<i64, usize>,
+    by_id: HashMap<Id, usize>,
     /// Index of the track of the row before.
     last: usize,
     times: Times,
@@ -33,6 +34,8 @@ pub(super) struct Draft<'a> {
 
 /// A track that is being read.
 struct Reading {
+    id: Id,
+    /// Its id becomes a number at the end.
     track: Track,
     /// Line of its first row.
     line: usize,
@@ -66,19 +69,19 @@ impl<'a> Draft<'a> {
     }
 
     fn keep(&mut self, row: Row, line: usize) {
-        let is_last = self.tracks.get(self.last).is_some_and(|it| it.track.id == row.track);
+        let is_last = self.tracks.get(self.last).is_some_and(|it| it.id == row.track);
         if !is_last {
             let next = self.tracks.len();
-            self.last = *self.by_id.entry(row.track).or_insert(next);
+            self.last = *self.by_id.entry(row.track.clone()).or_insert(next);
             if self.last == next {
                 let track = self.begin(&row, line);
-                self.tracks.push(Reading { track, line, times_ms: Vec::new() });
+                self.tracks.push(Reading { id: row.track.clone(), track, line, times_ms: Vec::new() });
             }
         }
         let reading = &mut self.tracks[self.last];
         if let Some(frame) = row.frame {
             if reading.track.states.last().is_some_and(|it| it.frame == frame) {
-                return again(&mut self.problems, row.track, frame, line);
+                return again(&mut self.problems, &row.track, frame, line);
             }
             if let Some(time_ms) = row.time_ms {
                 self.times.add(frame, time_ms, line);
@@ -117,7 +120,7 @@ impl<'a> Draft<'a> {
             });
         }
         let (length, width) = (row.length.unwrap_or(length), row.width.unwrap_or(width));
-        Track { id: row.track, class, length, width, states: Vec::new() }
+        Track { id: 0, class, length, width, states: Vec::new() }
     }
 
     pub(super) fn finish(mut self) -> Result<(Recording, Vec<Problem>), RecordingError> {
@@ -126,6 +129,7 @@ impl<'a> Draft<'a> {
             return Err(RecordingError::NoRows { rows: self.rows, problem });
         }
         let step = self.step()?;
+        let names = self.number_tracks();
         let mut tracks = Vec::with_capacity(self.tracks.len());
         for reading in std::mem::take(&mut self.tracks) {
             let line = reading.line;
@@ -136,7 +140,29 @@ impl<'a> Draft<'a> {
             None => tracks.into_iter().map(|it| it.0).collect(),
         };
         tracks.iter_mut().for_each(|it| self.complete(it, step));
-        Ok((Recording { step, tracks }, self.problems.into_list()))
+        let utm_origin = self.known.utm_origin;
+        Ok((Recording { step, tracks, names, utm_origin }, self.problems.into_list()))
+    }
+
+    /// Gives tracks their numbers: their own, and free ones where the table has texts, which are returned.
+    fn number_tracks(&mut self) -> BTreeMap<i64, String> {
+        let numbers = self.tracks.iter().filter_map(|it| match it.id {
+            Id::Number(number) => Some(number),
+            Id::Text(_) => None,
+        });
+        let mut free = free_ids(numbers.collect());
+        let mut names = BTreeMap::new();
+        for Reading { id, track, .. } in &mut self.tracks {
+            track.id = match id {
+                Id::Number(number) => *number,
+                Id::Text(text) => {
+                    let number = free.next().unwrap_or_default();
+                    names.insert(number, text.to_string());
+                    number
+                }
+            };
+        }
+        names
     }
 
     /// The time between frames [s]. Where frames have no numbers, they get them.
@@ -177,13 +203,13 @@ impl<'a> Draft<'a> {
     /// The tracks, each with the line where it begins, those with an id that was used again after more than `pause`
     /// frames with an id of their own.
     fn told_apart(&mut self, tracks: Vec<(Track, usize)>, pause: i64) -> Vec<Track> {
-        let mut free = tracks.iter().map(|it| it.0.id).max().unwrap_or(0).saturating_add(1);
+        let mut free_ids = free_ids(tracks.iter().map(|it| it.0.id).collect());
         let mut all = Vec::with_capacity(tracks.len());
         for (track, line) in tracks {
-            let (id, mut first) = (track.id, true);
-            for states in track.states.chunk_by(|a, b| b.frame - a.frame <= pause) {
-                let part = Track { id: if first { id } else { free }, states: states.to_vec(), ..track };
-                if !first {
+            let id = track.id;
+            for (number, states) in track.states.chunk_by(|a, b| b.frame - a.frame <= pause).enumerate() {
+                let free = if number == 0 { id } else { free_ids.next().unwrap_or(id) };
+                if number > 0 {
                     let remedy = "give every road user an id of its own";
                     self.problems.add("id that is used again", remedy, line, || {
                         let from = states[0].frame;
@@ -192,10 +218,8 @@ impl<'a> Draft<'a> {
                             format!("its id is used again from frame {from} on: that is {free}"),
                         )
                     });
-                    free = free.saturating_add(1);
                 }
-                first = false;
-                all.push(part);
+                all.push(Track { id: free, states: states.to_vec(), ..track });
             }
         }
         all
@@ -239,7 +263,7 @@ impl Reading {
             states.dedup_by(|later, kept| {
                 let is_again = later.frame == kept.frame;
                 if is_again {
-                    again(problems, self.track.id, kept.frame, self.line);
+                    again(problems, &self.id, kept.frame, self.line);
                 }
                 is_again
             });
@@ -248,7 +272,7 @@ impl Reading {
     }
 }
 
-fn again(problems: &mut Problems, track: i64, frame: i64, line: usize) {
+fn again(problems: &mut Problems, track: &Id, frame: i64, line: usize) {
     problems.add("duplicate row", "keep one row for each frame", line, || {
         (format!("track {track}"), format!("frame {frame} occurs again, so only its first row is used"))
     });

@@ -1,11 +1,10 @@
 //! The header of a table, which identifies the columns of its rows.
 
+use super::dialect::Commas;
 use super::layout::{Field, Layout};
 use super::row::{Flaw, Row};
+use super::rows::Fields;
 use crate::error::RecordingError;
-
-/// Further columns are ignored.
-const MAXIMUM_COLUMNS: usize = 256;
 
 /// The number of fields.
 const FIELDS: usize = Field::ALL.len();
@@ -13,8 +12,11 @@ const FIELDS: usize = Field::ALL.len();
 /// What the columns of a file hold.
 pub(super) struct Header<'a> {
     layout: &'a Layout,
-    /// For each column of the file its field.
-    meanings: Vec<Option<Field>>,
+    commas: Commas,
+    /// Whether the table has one: else its first row is one of data.
+    is_written: bool,
+    /// For each field its column in the file: the first with its name.
+    places: [Option<usize>; FIELDS],
     /// Columns that every row has to have.
     required: usize,
     /// The place of the column that has the same value in all rows, if there is one.
@@ -22,58 +24,45 @@ pub(super) struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    pub(super) fn of(line: &[u8], layout: &'a Layout) -> Result<Header<'a>, RecordingError> {
-        let named = |name: &[u8]| {
-            let is_it = |it: &&Field| layout.columns.name(**it).is_some_and(|it| it.as_bytes() == name);
-            Field::ALL.iter().find(is_it).copied()
+    /// The header of a table with this first row, which may be its header.
+    pub(super) fn of(
+        first: &Fields,
+        layout: &'a Layout,
+        commas: Commas,
+    ) -> Result<Header<'a>, RecordingError> {
+        let assumed = layout.header.as_ref().filter(|_| first.place(&[&layout.columns.track]).is_none());
+        let place = |name: &str| match assumed {
+            Some(names) => names.iter().position(|it| it == name),
+            None => first.place(&[name]),
         };
-        let names = line.split(|it| *it == b',').take(MAXIMUM_COLUMNS);
-        let mut meanings: Vec<Option<Field>> = names.map(|it| named(bare(it))).collect();
-        for field in Field::ALL {
-            // Of columns with the same name the first counts.
-            let same = meanings.iter_mut().filter(|it| **it == Some(field));
-            same.skip(1).for_each(|it| *it = None);
+        let places = Field::ALL.map(|it| layout.columns.name(it).and_then(place));
+        let needed = || Field::ALL.into_iter().filter(|it| !it.may_be_missing());
+        let missing = needed().filter(|it| places[*it as usize].is_none());
+        if let Some(column) = missing.filter_map(|it| layout.columns.name(it)).next() {
+            return Err(RecordingError::MissingColumn { column: column.to_owned(), found: first.excerpt() });
         }
-        for field in Field::ALL.into_iter().filter(|it| !it.may_be_missing()) {
-            if let Some(name) = layout.columns.name(field)
-                && !meanings.contains(&Some(field))
-            {
-                let found = String::from_utf8_lossy(&line[..line.len().min(200)]).into_owned();
-                return Err(RecordingError::MissingColumn { column: name.to_owned(), found });
-            }
-        }
-        let is_required = |it: &Option<Field>| it.is_some_and(|it| !it.may_be_missing());
-        let required = meanings.iter().rposition(is_required).map_or(0, |it| it + 1);
-        let mut names = line.split(|it| *it == b',').take(MAXIMUM_COLUMNS);
-        let same = layout.same.as_ref().and_then(|same| names.position(|it| bare(it) == same.as_bytes()));
-        Ok(Header { layout, meanings, required, same })
+        let required = needed().filter_map(|it| places[it as usize]).max().map_or(0, |it| it + 1);
+        let same = layout.same.as_deref().and_then(place);
+        Ok(Header { layout, commas, is_written: assumed.is_none(), places, required, same })
+    }
+
+    /// Whether the table has one: else its first row is one of data.
+    pub(super) fn is_written(&self) -> bool {
+        self.is_written
     }
 
     /// The value of the column that has the same one in all rows; `None` if there is no such column.
-    pub(super) fn same<'l>(&self, line: &'l [u8]) -> Option<&'l [u8]> {
-        line.split(|it| *it == b',').nth(self.same?).map(bare)
+    pub(super) fn same<'r>(&self, row: &Fields<'r>) -> Option<&'r [u8]> {
+        self.same.map(|it| row.get(it))
     }
 
-    /// The row in `line`.
-    pub(super) fn row(&self, line: &[u8]) -> Result<Row, Flaw> {
-        let mut fields: [&[u8]; FIELDS] = [&[]; FIELDS];
-        let mut count = 0;
-        for (field, meaning) in line.split(|it| *it == b',').zip(&self.meanings) {
-            count += 1;
-            if let Some(it) = meaning {
-                fields[*it as usize] = bare(field);
-            }
-        }
-        if count < self.required {
-            let what = format!("it has {count} fields, the header names at least {}", self.required);
+    /// What a row says.
+    pub(super) fn row(&self, row: &Fields) -> Result<Row, Flaw> {
+        if row.len() < self.required {
+            let what = format!("it has {} fields, the header names at least {}", row.len(), self.required);
             return Err(Flaw { what, remedy: "fill in all columns" });
         }
-        Row::of(&fields, self.layout)
+        let fields = self.places.map(|it| it.map_or(&[][..], |at| row.get(at)));
+        Row::of(&fields, self.layout, self.commas)
     }
-}
-
-/// A field without blanks and quotes around it.
-pub(crate) fn bare(field: &[u8]) -> &[u8] {
-    let field = field.trim_ascii();
-    field.strip_prefix(b"\"").and_then(|it| it.strip_suffix(b"\"")).unwrap_or(field)
 }

@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 
 use laneweave_maps::Problem;
 
-use super::header::bare;
-use super::lines::Lines;
+use super::dialect::{Commas, Dialect};
+use super::id::Id;
+use super::rows::{Fields, Rows};
 use crate::error::RecordingError;
 use crate::recording::RoadUser;
 
@@ -17,13 +18,15 @@ use crate::recording::RoadUser;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
     /// Their classes by id.
-    pub classes: HashMap<i64, RoadUser>,
+    pub classes: HashMap<Id, RoadUser>,
     /// Frames per second.
     pub frames_per_second: Option<f64>,
+    /// East and north of the origin of its positions in the UTM zone of the place [m].
+    pub utm_origin: Option<[f64; 2]>,
 }
 
 /// The end of the names of tables that have files beside them.
-const TRACKS: &str = "_tracks.csv";
+pub(super) const TRACKS: &str = "_tracks.csv";
 
 impl Known {
     /// What the files beside the table `path` say, and what is missing there.
@@ -46,19 +49,16 @@ impl Known {
 
     /// Reads the classes of road users.
     fn read_tracks(&mut self, file: impl BufRead, problems: &mut Vec<Problem>) -> Result<(), RecordingError> {
-        let mut lines = Lines::of(file);
-        let header = lines.next()?.map_or_else(Vec::new, |it| it.text.to_vec());
-        let (ids, classes) = (column(&header, &["id", "trackId"])?, column(&header, &["class"])?);
-        while let Some(line) = lines.next()? {
-            let field = |at: usize| line.text.split(|it| *it == b',').nth(at).map(bare).unwrap_or_default();
-            let id = str::from_utf8(field(ids)).ok().and_then(|it| it.parse().ok());
-            let name = String::from_utf8_lossy(field(classes)).to_ascii_lowercase();
+        let mut meta = Meta::of(file)?;
+        let (ids, classes) = (meta.column(&["id", "trackId"])?, meta.column(&["class"])?);
+        while let Some(row) = meta.rows.next()? {
+            let id = Id::of(row.get(ids));
+            let name = String::from_utf8_lossy(row.get(classes)).to_ascii_lowercase();
             match id.zip(class_of(&name)) {
                 Some((id, class)) => _ = self.classes.insert(id, class),
-                None if line.text.is_empty() => {}
                 None => problems.push(Problem {
                     element: "row of tracksMeta".into(),
-                    line: Some(line.number),
+                    line: Some(row.line),
                     what: format!("it has no id, or its class {name:?} is unknown, so it is left out"),
                     remedy: "correct the row".into(),
                 }),
@@ -67,15 +67,46 @@ impl Known {
         Ok(())
     }
 
-    /// Reads the frame rate.
+    /// Reads the frame rate, and where the origin of positions is.
     fn read_recording(&mut self, file: impl BufRead) -> Result<(), RecordingError> {
-        let mut lines = Lines::of(file);
-        let header = lines.next()?.map_or_else(Vec::new, |it| it.text.to_vec());
-        let rate = column(&header, &["frameRate"])?;
-        let line = lines.next()?.map_or_else(Vec::new, |it| it.text.to_vec());
-        let field = line.split(|it| *it == b',').nth(rate).map(bare).unwrap_or_default();
-        self.frames_per_second = str::from_utf8(field).ok().and_then(|it| it.parse().ok());
+        let mut meta = Meta::of(file)?;
+        let rate = meta.column(&["frameRate"])?;
+        let origin = ["xUtmOrigin", "yUtmOrigin"].map(|it| meta.column(&[it]).ok());
+        let commas = meta.commas;
+        let Some(row) = meta.rows.next()? else { return Ok(()) };
+        let number = |at| commas.number(row.get(at)).filter(|it| it.is_finite());
+        self.utm_origin = match origin.map(|it| it.and_then(number)) {
+            [Some(x), Some(y)] => Some([x, y]),
+            _ => None,
+        };
+        self.frames_per_second = number(rate);
         Ok(())
+    }
+}
+
+/// A file beside a table: a header and rows.
+struct Meta<R> {
+    names: Vec<String>,
+    commas: Commas,
+    rows: Rows<R>,
+}
+
+impl<R: BufRead> Meta<R> {
+    fn of(mut file: R) -> Result<Meta<R>, RecordingError> {
+        let dialect = Dialect::of(file.fill_buf()?);
+        let mut rows = Rows::of(file, dialect);
+        let text = |it: &[u8]| String::from_utf8_lossy(it).into_owned();
+        let names = rows.next()?.map_or_else(Vec::new, |it: Fields| it.iter().map(text).collect());
+        Ok(Meta { names, commas: dialect.commas, rows })
+    }
+
+    /// The place of the first column with one of these names.
+    fn column(&self, names: &[&'static str]) -> Result<usize, RecordingError> {
+        let place = self.names.iter().position(|it| names.contains(&it.as_str()));
+        place.ok_or_else(|| RecordingError::MissingColumn {
+            column: names[0].to_owned(),
+            found: self.names.join(",").chars().take(200).collect(),
+        })
     }
 }
 
@@ -92,17 +123,6 @@ fn missing(file: &str, what: &str) -> Problem {
         what: format!("no {file} file is beside the table, so {what}"),
         remedy: format!("put it there: beside 01{TRACKS} it is 01_{file}.csv"),
     }
-}
-
-/// The place of the first column with one of these names.
-fn column(header: &[u8], names: &[&'static str]) -> Result<usize, RecordingError> {
-    let header = header.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(header);
-    let place =
-        header.split(|it| *it == b',').position(|it| names.iter().any(|name| bare(it) == name.as_bytes()));
-    place.ok_or_else(|| RecordingError::MissingColumn {
-        column: names[0].to_owned(),
-        found: String::from_utf8_lossy(&header[..header.len().min(200)]).into_owned(),
-    })
 }
 
 /// The class with this name in lower case, in highD, inD, rounD and exiD.

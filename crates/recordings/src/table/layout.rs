@@ -32,6 +32,10 @@ pub struct Layout {
     /// A column that has the same value in all rows, such as the place: a table of several is refused.
     #[serde(default)]
     pub same: Option<String>,
+    /// The names of the columns of a table without a header: one whose first row has no column `track`. Columns beyond
+    /// them are not used.
+    #[serde(default)]
+    pub header: Option<Vec<String>>,
     /// The names of classes in the table.
     #[serde(default)]
     pub classes: BTreeMap<String, RoadUser>,
@@ -171,6 +175,7 @@ impl Layout {
             frames_per_second: None,
             reused_after_s: None,
             same: None,
+            header: None,
             classes: BTreeMap::new(),
         }
     }

@@ -1,13 +1,13 @@
 //! One row of a table.
 
-use std::str::FromStr;
-
+use super::dialect::Commas;
+use super::id::Id;
 use super::layout::{Axes, Field, Layout};
 use crate::recording::{RoadUser, State};
 
 /// The values of a row, in metres, seconds and radians, but for times.
 pub(super) struct Row {
-    pub(super) track: i64,
+    pub(super) track: Id,
     /// The number of its frame, where a column gives it.
     pub(super) frame: Option<i64>,
     /// Its time [ms], where a column gives it.
@@ -44,12 +44,17 @@ const STANDSTILL: f64 = 0.1;
 struct Fields<'a> {
     fields: &'a [&'a [u8]; Field::ALL.len()],
     layout: &'a Layout,
+    commas: Commas,
 }
 
 impl Row {
     /// The row with `fields` in the order of [`Field::ALL`].
-    pub(super) fn of(fields: &[&[u8]; Field::ALL.len()], layout: &Layout) -> Result<Row, Flaw> {
-        let it = Fields { fields, layout };
+    pub(super) fn of(
+        fields: &[&[u8]; Field::ALL.len()],
+        layout: &Layout,
+        commas: Commas,
+    ) -> Result<Row, Flaw> {
+        let it = Fields { fields, layout, commas };
         let metres = layout.units.length.metres();
         let up = if layout.axes == Axes::YDown { -1.0 } else { 1.0 };
         let (speed, motion) = it.motion(metres, up)?;
@@ -96,10 +101,11 @@ impl Fields<'_> {
         }
     }
 
-    fn track(&self) -> Result<i64, Flaw> {
-        let id = self.of(Field::Track);
-        // Pedestrians of INTERACTION are numbered P1, P2, …, in a file of their own.
-        self.parsed(Field::Track, id.strip_prefix(b"P").unwrap_or(id))
+    fn track(&self) -> Result<Id, Flaw> {
+        Id::of(self.of(Field::Track)).ok_or_else(|| {
+            let what = format!("{} is empty, or longer than {} bytes", self.name(Field::Track), Id::LONGEST);
+            Flaw { what, remedy: "give every road user an id" }
+        })
     }
 
     fn time(&self) -> Result<Option<f64>, Flaw> {
@@ -113,8 +119,9 @@ impl Fields<'_> {
         }
         let name = self.of(Field::Class);
         let text = str::from_utf8(name).ok();
-        let known =
-            text.and_then(|it| self.layout.classes.get(it).copied().or_else(|| RoadUser::of_name(it)));
+        // Numbers of classes may be written with a decimal.
+        let named = |it: &str| self.layout.classes.get(it.strip_suffix(".0").unwrap_or(it)).copied();
+        let known = text.and_then(|it| named(it).or_else(|| RoadUser::of_name(it)));
         known.map_or_else(|| Class::Unknown(excerpt(name)), Class::Known)
     }
 
@@ -123,11 +130,10 @@ impl Fields<'_> {
         if self.layout.columns.name(field).is_none() {
             return Ok(None);
         }
-        let value = if field == Field::Frame {
-            self.parsed::<i64>(field, self.of(field))? as f64
-        } else {
-            self.needed(field)?
-        };
+        let value = self.needed(field)?;
+        if field == Field::Frame && value.fract() != 0.0 {
+            return Err(self.not_valid(field));
+        }
         if value.is_nan() || value.abs() > MAXIMUM_COUNT {
             let found = excerpt(self.of(field));
             let what = format!("{} is {found}, beyond ±{MAXIMUM_COUNT}", self.name(field));
@@ -139,18 +145,19 @@ impl Fields<'_> {
     /// A number that a row may leave out.
     fn number(&self, field: Field) -> Result<Option<f64>, Flaw> {
         let text = self.of(field);
-        if text.is_empty() { Ok(None) } else { self.parsed(field, text).map(Some) }
+        if text.is_empty() { Ok(None) } else { self.needed(field).map(Some) }
     }
 
     fn needed(&self, field: Field) -> Result<f64, Flaw> {
-        self.parsed(field, self.of(field))
+        self.commas.number(self.of(field)).ok_or_else(|| self.not_valid(field))
     }
 
-    fn parsed<T: FromStr>(&self, field: Field, text: &[u8]) -> Result<T, Flaw> {
-        str::from_utf8(text).ok().and_then(|it| it.parse().ok()).ok_or_else(|| Flaw {
-            what: format!("{} is {:?}, which is not a valid number for it", self.name(field), excerpt(text)),
+    fn not_valid(&self, field: Field) -> Flaw {
+        let found = excerpt(self.of(field));
+        Flaw {
+            what: format!("{} is {found:?}, which is not a valid number for it", self.name(field)),
             remedy: "correct the number",
-        })
+        }
     }
 }
 

@@ -13,7 +13,7 @@ fn car(frames: impl Iterator<Item = i64>) -> Track {
 }
 
 fn cleaned(track: Track) -> (Vec<Track>, CleaningReport) {
-    let (recording, report) = clean(Recording { step: STEP, tracks: vec![track] });
+    let (recording, report) = clean(Recording { step: STEP, tracks: vec![track], ..Recording::default() });
     assert_eq!(recording.step, STEP);
     (recording.tracks, report)
 }
@@ -137,7 +137,7 @@ fn a_vehicle_that_is_seen_only_in_part_at_the_ends_is_where_its_motion_says_and_
             track.states[at].x += off;
             track.states[59 - at].x -= off;
         }
-        let (recording, report) = clean(Recording { step, tracks: vec![track] });
+        let (recording, report) = clean(Recording { step, tracks: vec![track], ..Recording::default() });
         assert_eq!(
             (report.partly_seen.count, report.speeds.count),
             (2 * cut_off.iter().filter(|it| **it > 0.5).count(), 0)
@@ -182,7 +182,7 @@ fn a_report_names_the_first_cases_of_each_kind() {
 fn a_track_of_few_states_does_not_grow_without_bound() {
     let mut track = car((0..200).map(|it| 100 * it));
     track.states.iter_mut().for_each(|it| it.x = 0.2 * it.frame as f64);
-    let recording = Recording { step: 0.01, tracks: vec![track] };
+    let recording = Recording { step: 0.01, tracks: vec![track], ..Recording::default() };
     let (recording, report) = clean(recording);
     // Six gaps of 99 frames are filled; the next would make the track more than four times as long.
     assert_eq!((report.interpolated.count, report.long_gaps.count), (6 * 99, 193));

@@ -51,7 +51,7 @@ fn tracks_are_read_with_their_frames() {
     assert!((recording.tracks[0].states[1].heading - 0.1).abs() < 1e-15);
     let mut read = recording.clone();
     read.tracks[0].states[1].heading = 0.1;
-    assert_eq!(read, Recording { step: 0.5, tracks: vec![car] });
+    assert_eq!(read, Recording { step: 0.5, tracks: vec![car], ..Recording::default() });
     assert_eq!(
         problems,
         ["obstacle 8 (line 9): parked vehicles are no tracks: this one and 0 more; \

@@ -36,7 +36,7 @@ fn on_the_left(id: i64, x: f64, speed: f64) -> Track {
 fn found(others: Vec<Track>) -> Vec<CutIn> {
     let network = two_lanes();
     let tracks = [vec![cutting_in()], others].concat();
-    let recording = Recording { step: STEP, tracks };
+    let recording = Recording { step: STEP, tracks, ..Recording::default() };
     let matched = Matched::new(&network, &recording);
     let changes = lane_changes(&matched);
     assert_eq!(changes.len(), 1);
@@ -91,7 +91,7 @@ fn the_braking_of_a_follower_is_the_hardest_over_a_second_within_four() {
         state.speed -= 3.0 * (time - 11.0).clamp(0.0, 2.0) + 6.0 * (time - 15.0).clamp(0.0, 2.0);
     }
     let network = two_lanes();
-    let whole = Recording { step: STEP, tracks: vec![cutting_in(), follower] };
+    let whole = Recording { step: STEP, tracks: vec![cutting_in(), follower], ..Recording::default() };
     let braking = |recording: &Recording| {
         let matched = Matched::new(&network, recording);
         let [it] = cut_ins(&matched, &lane_changes(&matched))[..] else { panic!("one cut-in") };

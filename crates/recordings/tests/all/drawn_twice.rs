@@ -42,6 +42,7 @@ fn drive(way: impl Fn(f64) -> f64) -> Recording {
     Recording {
         step: STEP,
         tracks: vec![Track { id: 1, class: RoadUser::Car, length: 4.5, width: 1.8, states }],
+        ..Recording::default()
     }
 }
 

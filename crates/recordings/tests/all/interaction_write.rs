@@ -17,7 +17,7 @@ fn recording() -> Recording {
         let (length, width) = class.usual_size();
         Track { id, class, length, width, states: states.collect() }
     });
-    Recording { step: 0.04, tracks: tracks.collect() }
+    Recording { step: 0.04, tracks: tracks.collect(), ..Recording::default() }
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn traffic(step: f64, noise: f64) -> Recording {
         let (length, width) = RoadUser::Car.usual_size();
         Track { id, class: RoadUser::Car, length, width, states: states.collect() }
     };
-    Recording { step, tracks: (1..40).map(track).collect() }
+    Recording { step, tracks: (1..40).map(track).collect(), ..Recording::default() }
 }
 
 /// `whole` in windows of so many frames, the next of which begins `overlap` frames before the last one ends; each with
@@ -36,7 +36,7 @@ fn cut(whole: &Recording, length: i64, overlap: i64, recounted: bool) -> Vec<Rec
             Track { states, ..*track }
         };
         let tracks = whole.tracks.iter().map(part).filter(|it| !it.states.is_empty()).collect();
-        Recording { step: whole.step, tracks }
+        Recording { step: whole.step, tracks, ..Recording::default() }
     };
     starts.map(window).filter(|it| !it.tracks.is_empty()).collect()
 }

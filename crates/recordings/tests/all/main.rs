@@ -11,3 +11,5 @@ mod interaction_write;
 mod join;
 mod mona_east;
 mod two_lanes;
+mod utm;
+mod written_otherwise;

@@ -51,7 +51,7 @@ fn swing(time: f64, duration: f64) -> f64 {
 }
 
 fn found(network: &Network, tracks: Vec<Track>) -> Vec<LaneChange> {
-    lane_changes(&Matched::new(network, &Recording { step: STEP, tracks }))
+    lane_changes(&Matched::new(network, &Recording { step: STEP, tracks, ..Recording::default() }))
 }
 
 /// A car that changes lanes every 15 s and drives at varying offsets in its lane, and the times when it crosses the

@@ -23,7 +23,11 @@ pub(super) fn chosen(
     let vehicles: BTreeSet<i64> =
         recording.tracks.iter().filter(|it| it.class.is_vehicle()).map(|it| it.id).collect();
     if let Some(unknown) = replay.reactive_ids.iter().find(|it| !vehicles.contains(it)) {
-        let known: Vec<String> = vehicles.iter().take(10).map(i64::to_string).collect();
+        let known = |id: &i64| match recording.names.get(id) {
+            Some(name) => format!("{id} ({name})"),
+            None => id.to_string(),
+        };
+        let known: Vec<String> = vehicles.iter().take(10).map(known).collect();
         let place = origin.place(&["replay", "reactive_ids"]);
         let what = format!("the recording has no motor vehicle {unknown}");
         return Err(Fault::new(

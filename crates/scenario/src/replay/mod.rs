@@ -21,7 +21,7 @@ mod hand_over;
 mod part;
 mod playback;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use laneweave_network::{LaneletIndex, Position};
@@ -77,6 +77,8 @@ pub struct Player {
     from_step: Option<u32>,
     shares: Arc<TurningShares>,
     random: Random,
+    /// By the id of a vehicle, what its file has as an id where that is no number.
+    names: Arc<BTreeMap<i64, String>>,
     /// Time from the first frame to the last [s].
     duration_s: f64,
     /// Time of the recording at which the simulation begins [s].
@@ -100,17 +102,24 @@ pub struct Played {
 }
 
 impl Player {
-    /// The recording that `scenario` replays, if it does, for a `world` at its start.
+    /// The recording that `scenario` replays, if it does, for a `world` at its start, whose (0, 0) is at the latitude
+    /// and longitude `zero` [°].
     ///
     /// # Errors
     /// If a file cannot be read, if the recording is one of another place, or if a vehicle or a number does not fit.
-    pub(crate) fn of(scenario: &Scenario, origin: &Origin, world: &World) -> Result<Option<Player>, Fault> {
+    pub(crate) fn of(
+        scenario: &Scenario,
+        origin: &Origin,
+        zero: Option<(f64, f64)>,
+        world: &World,
+    ) -> Result<Option<Player>, Fault> {
         let replay = &scenario.replay;
         check_numbers(replay, origin)?;
         if !replay.is_asked() {
             return Ok(None);
         }
-        let (recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
+        let (mut recording, _) = open_recordings(&replay.recording, replay.columns.as_deref())?;
+        recording.place(zero);
         let permitted = BTreeSet::new();
         let recorded = Recorded { recording, from_s: 0.0, permitted, at_its_end: AtItsEnd::Leaves };
         Player::of_recorded(recorded, scenario, origin, world)
@@ -148,6 +157,7 @@ impl Player {
             from_step: (!reactive.is_empty()).then_some(from_step),
             shares,
             random: Random::new(scenario.run.seed),
+            names: recording.names.into(),
             duration_s: (last - first - begin) as f64 * recording.step,
             from_s: begin as f64 * recording.step,
             permitted: permitted.into(),
@@ -168,6 +178,11 @@ impl Player {
     /// Time from the first frame of the recording to the last [s].
     pub fn duration_s(&self) -> f64 {
         self.duration_s
+    }
+
+    /// What the recording's file has as the id of a vehicle, where that is no number.
+    pub fn name(&self, recorded: i64) -> Option<&str> {
+        self.names.get(&recorded).map(String::as_str)
     }
 
     /// Pairs of lanelets between which its drivers may change lanes, whatever the map says.

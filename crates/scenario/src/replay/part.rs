@@ -230,7 +230,7 @@ mod tests {
             .collect();
         let track =
             Track { id: 1, class: laneweave_recordings::RoadUser::Car, length: 4.0, width: 2.0, states };
-        let recording = Recording { step: 0.1, tracks: vec![track] };
+        let recording = Recording { step: 0.1, tracks: vec![track], ..Recording::default() };
         let part = &parts(&recording, &BTreeSet::new(), 0.1)[0];
         assert!((part.path() - 22.0).abs() < 1e-9 && part.recorded(99) == part.recorded(20));
         let Motion { acceleration, chord } = part.motion(15, 0.1);

@@ -125,10 +125,16 @@ impl Playing {
         }
     }
 
-    /// Who plays it in a `world` at its start.
-    fn player(self, scenario: &Scenario, origin: &Origin, world: &World) -> Result<Option<Player>, Fault> {
+    /// Who plays it in a `world` at its start, whose (0, 0) is at the latitude and longitude `zero` [°].
+    fn player(
+        self,
+        scenario: &Scenario,
+        origin: &Origin,
+        zero: Option<(f64, f64)>,
+        world: &World,
+    ) -> Result<Option<Player>, Fault> {
         match self {
-            Playing::AsAsked => Player::of(scenario, origin, world),
+            Playing::AsAsked => Player::of(scenario, origin, zero, world),
             Playing::Again(player) => Ok(Some(player)),
             Playing::Recorded(recorded) => Player::of_recorded(recorded, scenario, origin, world),
         }
@@ -191,7 +197,7 @@ fn prepare_with(
     };
     check_ways(scenario, origin, &world)?;
     check_arrivals(scenario, origin, &world)?;
-    let player = playing.player(scenario, origin, &world)?;
+    let player = playing.player(scenario, origin, map.origin, &world)?;
     let script = Script::of(scenario, origin, &map.contents.obstacles, player, &world)?;
     Ok(Prepared {
         warmup_steps,

@@ -57,6 +57,9 @@ pub struct RecordingReport {
     pub cut_ins_by_speed: Vec<CutInsAt>,
     /// Lane changes in the order of their times.
     pub lane_changes: Vec<ChangeRow>,
+    /// By the id of a vehicle, what the file has as an id where that is no number.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub names: BTreeMap<i64, String>,
     /// Problems in reading it.
     pub problems: Vec<Problem>,
 }
@@ -151,6 +154,7 @@ impl RecordingReport {
             cut_ins_by_speed: cut_ins_by_speed(&cut_ins),
             cut_ins,
             lane_changes: changes.iter().map(|it| row(it, network)).collect(),
+            names: recording.names.clone(),
             problems: elsewhere.into_iter().chain(problems.iter().cloned()).collect(),
         }
     }
@@ -198,11 +202,11 @@ impl RecordingReport {
         write_cut_ins(&self.cut_ins_by_speed, out)?;
         writeln!(out, "\n   time [s]    vehicle       from         to  side   kind           speed [m/s]")?;
         for it in self.lane_changes.iter().take(LISTED) {
+            let vehicle = self.names.get(&it.vehicle).cloned().unwrap_or_else(|| it.vehicle.to_string());
             writeln!(
                 out,
-                "{:11.2} {:10} {:10} {:10}  {:<6} {:<14} {:11.1}{}",
+                "{:11.2} {vehicle:>10} {:10} {:10}  {:<6} {:<14} {:11.1}{}",
                 it.time_s,
-                it.vehicle,
                 it.from_lanelet,
                 it.to_lanelet,
                 it.side,

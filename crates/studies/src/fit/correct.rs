@@ -88,7 +88,7 @@ mod tests {
             width: 1.8,
             states: (0..400).map(state).collect(),
         };
-        let exact = Recording { step: 1.0, tracks: vec![track] };
+        let exact = Recording { step: 1.0, tracks: vec![track], ..Recording::default() };
         let errors = |drone: Drone| -> Vec<f64> {
             drone.observe(&exact).tracks[0].states.iter().map(|it| it.y).collect()
         };

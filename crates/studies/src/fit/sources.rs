@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use laneweave::sim::Navigator;
 use laneweave_calibration::following::Followers;
 use laneweave_calibration::observe::{Begin, Observations, Options, Origin, observe};
-use laneweave_maps::FileKind;
+use laneweave_maps::{FileKind, Map};
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
 use laneweave_recordings::{Matched, Recording, clean, cut_ins, lane_changes};
@@ -46,6 +46,8 @@ pub(super) struct SiteMap {
     pub(super) path: PathBuf,
     /// How it is read.
     pub(super) options: MapOptions,
+    /// Latitude and longitude of its (0, 0) [°], if it was projected.
+    origin: Option<(f64, f64)>,
     network: Network,
 }
 
@@ -168,7 +170,10 @@ impl Request {
         for (site, recordings) in by_site.into_iter().enumerate() {
             let (recordings, notes) = joined(recordings);
             windows.extend(notes);
-            let part = |(name, it)| Part { name, recording: clean(it).0, site };
+            let part = |(name, mut it): Named| {
+                it.place(maps[site].origin);
+                Part { name, recording: clean(it).0, site }
+            };
             parts.extend(recordings.into_iter().map(part));
         }
         Ok((maps, parts))
@@ -202,10 +207,10 @@ impl Request {
     /// The map at `path`, in which lanelets that meet at their ends continue one another: what drove there shows that
     /// they do.
     fn site_map(&self, path: &std::path::Path) -> Result<SiteMap, Fault> {
-        let network = open_map(path, &self.map_options)?.network;
+        let Map { network, origin, .. } = open_map(path, &self.map_options)?;
         // A network that was sound is so with more joints.
         let network = network.clone().joined().unwrap_or(network);
-        Ok(SiteMap { path: path.to_owned(), options: self.map_options.clone(), network })
+        Ok(SiteMap { path: path.to_owned(), options: self.map_options.clone(), origin, network })
     }
 
     /// Refuses a recording most of which lies outside all lanelets.

@@ -144,7 +144,8 @@ impl Watched {
         self.tracer.observe(simulation, followed, &self.exposure.not_compared);
         self.collisions.observe(simulation);
         if simulation.played().count() > self.vehicles.len() {
-            let named = |it: Played| Named { recorded: it.recorded, vehicle: it.vehicle };
+            let name = |id: i64| simulation.player()?.name(id).map(str::to_owned);
+            let named = |Played { recorded, vehicle, .. }| Named { recorded, name: name(recorded), vehicle };
             self.vehicles = simulation.played().map(named).collect();
             self.chosen = simulation.played().filter(|it| it.is_reactive).map(|it| it.recorded).collect();
         }

@@ -132,10 +132,13 @@ pub struct Difference {
 }
 
 /// The id of a recorded vehicle in the tables; a vehicle that was lost and seen again has several.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Named {
     /// Its id in the recording.
     pub recorded: i64,
+    /// What the recording's file has as its id, where that is no number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Its id in the tables.
     pub vehicle: u32,
 }

@@ -53,7 +53,8 @@ impl Recorded {
         options: &MapOptions,
     ) -> Result<Recorded, Fault> {
         let map = open_map(map, options)?;
-        let (recording, _) = open_recordings(paths, columns)?;
+        let (mut recording, _) = open_recordings(paths, columns)?;
+        recording.place(map.origin);
         let title = paths
             .first()
             .and_then(|it| it.file_name())
@@ -150,7 +151,7 @@ impl Recorded {
     fn facts(&self, track: &Track, at: usize) -> DriverFacts {
         let State { x, y, speed, .. } = track.states[at];
         DriverFacts {
-            id: track.id.to_string(),
+            id: self.recording.name(track.id),
             class: track.class.name(),
             speed_kmh: speed * 3.6,
             acceleration_mps2: Some(self.acceleration(track, at)),

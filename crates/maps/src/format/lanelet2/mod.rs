@@ -18,6 +18,7 @@ mod write;
 
 pub use compose::compose;
 pub use osm::Document;
+pub use projection::utm;
 
 use crate::drawing::Drawing;
 use crate::error::MapError;

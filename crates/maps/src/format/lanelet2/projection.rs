@@ -105,6 +105,16 @@ impl Utm {
     }
 }
 
+/// Easting and northing [m] of the place at `latitude` and `longitude` [°] in its UTM zone; `None` where there is none.
+pub fn utm(latitude: f64, longitude: f64) -> Option<[f64; 2]> {
+    /// The central meridian has this easting, so that none is negative [m].
+    const FALSE_EASTING: f64 = 500_000.0;
+    /// In the south the equator has this northing [m].
+    const FALSE_NORTHING: f64 = 10_000_000.0;
+    let (east, north) = Utm::around(latitude, longitude)?.origin;
+    Some([east + FALSE_EASTING, if latitude < 0.0 { north + FALSE_NORTHING } else { north }])
+}
+
 /// The UTM zone of a place, with the exceptions of Norway and Svalbard.
 fn zone(latitude: f64, longitude: f64) -> i32 {
     let regular = ((longitude + 180.0) / 6.0).floor() as i32 % 60 + 1;
@@ -202,7 +212,9 @@ mod tests {
 
     #[test]
     fn places_outside_the_zone_or_the_earth_are_refused() {
-        assert!(Utm::around(84.1, 0.0).is_none() && Utm::around(0.0, 180.1).is_none());
+        assert!(
+            utm(84.1, 0.0).is_none() && Utm::around(84.1, 0.0).is_none() && Utm::around(0.0, 180.1).is_none()
+        );
         assert!(Utm::around(f64::NAN, 0.0).is_none());
         let utm = Utm::around(49.0, 8.4).unwrap();
         assert!(utm.forward(49.0, 40.0).is_none() && utm.forward(91.0, 8.0).is_none());

@@ -10,12 +10,13 @@ use laneweave_recordings::datasets::Dataset;
 use laneweave_recordings::table::{Known, Layout, read};
 use laneweave_recordings::{Recording, RecordingError, RoadUser, State, Track, clean, open};
 use proptest::prelude::*;
-use written::{highd, ind, ngsim};
+pub(crate) use written::ind;
+use written::{highd, ngsim};
 
 const FEET: f64 = 0.3048;
 
 /// Cars and a truck that drive along x in both directions, with a slight bend.
-fn motorway(step: f64) -> Recording {
+pub(crate) fn motorway(step: f64) -> Recording {
     let track = |id: i64, class: RoadUser, along: f64| {
         let (length, width) = class.usual_size();
         let states = (5 * id..5 * id + 200).map(|frame| {
@@ -30,11 +31,11 @@ fn motorway(step: f64) -> Recording {
     };
     let tracks =
         vec![track(1, RoadUser::Car, 1.0), track(2, RoadUser::Truck, -1.0), track(7, RoadUser::Car, -1.0)];
-    Recording { step, tracks }
+    Recording { step, tracks, ..Recording::default() }
 }
 
 /// A folder of its own for the files of a test.
-fn folder(name: &str) -> PathBuf {
+pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("laneweave_datasets_{}_{name}", std::process::id()));
     fs::create_dir_all(&folder).expect("it can be made");
     folder
@@ -205,7 +206,7 @@ fn datasets_are_recognised_by_their_headers() {
             &columns.width,
         ];
         let header: Vec<&str> = named.into_iter().flatten().map(String::as_str).collect();
-        assert_eq!(Dataset::of_header(header.join(",").as_bytes()), Some(dataset));
+        assert_eq!(Dataset::of_start(header.join(",").as_bytes()), Some(dataset));
     }
-    assert_eq!(Dataset::of_header(b"id,frame,x,y"), None);
+    assert_eq!(Dataset::of_start(b"id,frame,x,y"), None);
 }

@@ -109,5 +109,5 @@ pub(super) fn between(recording: &Recording, [first, last]: [i64; 2]) -> Recordi
         let states = it.states[within(first)..within(last + 1)].to_vec();
         (!states.is_empty()).then_some(Track { states, ..*it })
     });
-    Recording { step: recording.step, tracks: tracks.collect() }
+    Recording { tracks: tracks.collect(), names: recording.names.clone(), ..*recording }
 }

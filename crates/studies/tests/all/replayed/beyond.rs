@@ -33,7 +33,11 @@ fn recording(speed_at: impl Fn(f64) -> f64) -> Recording {
         states,
     };
     let frames = (APART / STEP) as i64;
-    Recording { step: STEP, tracks: (0..COUNT).map(|it| track(it, states(it * frames).collect())).collect() }
+    Recording {
+        step: STEP,
+        tracks: (0..COUNT).map(|it| track(it, states(it * frames).collect())).collect(),
+        ..Recording::default()
+    }
 }
 
 /// What is on the road at all steps of a replay in which all are drivers who drive on.

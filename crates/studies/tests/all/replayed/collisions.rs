@@ -23,7 +23,7 @@ fn car(id: i64, from_x: f64, lane_y: impl Fn(f64) -> f64, speed: impl Fn(f64) ->
 
 /// What happens in the recording of these cars, of which number 1 becomes a driver.
 fn replayed_once(tracks: Vec<Track>) -> Matched {
-    let file = written(&Recording { step: 0.1, tracks });
+    let file = written(&Recording { step: 0.1, tracks, ..Recording::default() });
     let mut scenario = replayed(file.clone(), map("motorway_3_lanes.osm"), 0.0);
     scenario.replay.reactive_ids = vec![1];
     scenario.styles = [("conservative".to_owned(), 1.0)].into();
@@ -86,6 +86,7 @@ fn a_driver_leaves_when_its_record_ends_and_one_whose_place_is_taken_comes_behin
     let recording = Recording {
         step: 0.1,
         tracks: vec![car(2, 100.0, |_| 1.75, |time| (20.0 - 8.0 * time).max(0.0)), ends],
+        ..Recording::default()
     };
     let mut scenario = replayed(written(&recording), map("motorway_3_lanes.osm"), 1.0);
     scenario.styles = [("conservative".to_owned(), 1.0)].into();
@@ -115,7 +116,7 @@ fn arrives_where_a_driver_stands(class: RoadUser, frames: usize) -> Departures {
     let mut comes = Track { class, ..car(2, 100.0, |_| 1.75, |_| 0.0) };
     comes.states.iter_mut().for_each(|it| it.frame += 100);
     comes.states.truncate(frames);
-    let mut recording = Recording { step: 0.1, tracks: vec![stands, driver, comes] };
+    let mut recording = Recording { step: 0.1, tracks: vec![stands, driver, comes], ..Recording::default() };
     recording.tracks[0].states.iter_mut().for_each(|it| it.speed = 0.0);
     let mut scenario = replayed(written(&recording), map("motorway_3_lanes.osm"), 0.0);
     scenario.replay.reactive_ids = vec![1];

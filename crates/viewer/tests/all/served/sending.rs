@@ -27,7 +27,7 @@ fn crowd() -> Recording {
         let states = (0..(RECORDED_S / STEP_S) as i64).map(state).collect();
         Track { id, class: RoadUser::Car, length: 4.5, width: 1.8, states }
     };
-    Recording { step: STEP_S, tracks: (1..=VEHICLES).map(track).collect() }
+    Recording { step: STEP_S, tracks: (1..=VEHICLES).map(track).collect(), ..Recording::default() }
 }
 
 #[test]
