@@ -68,8 +68,8 @@ impl Drone {
                 if number == 0 { tracks.push(track) } else { lost.push(track) }
             }
         }
-        let free = traffic.tracks.iter().map(|it| it.id).max().unwrap_or(0) + 1;
-        tracks.extend(lost.into_iter().zip(free..).map(|(it, id)| Track { id, ..it }));
+        let free = traffic.free_ids();
+        tracks.extend(lost.into_iter().zip(free).map(|(it, id)| Track { id, ..it }));
         tracks.retain(|it| !it.states.is_empty());
         tracks.iter_mut().for_each(|it| follow(&mut it.states, step));
         Recording { step, tracks, ..Recording::default() }

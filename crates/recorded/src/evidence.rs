@@ -127,9 +127,8 @@ impl Evidence {
     /// Looks at all drivers once a second.
     fn note_free_flow(&mut self, matched: &Matched, replay: &Replay) {
         const EVERY: f64 = 1.0;
-        let Some((first, last)) = matched.recording.frames() else { return };
-        let every = (EVERY / matched.recording.step).round().max(1.0) as usize;
-        for number in (first..=last).step_by(every) {
+        let every = (EVERY / matched.recording.step).round().max(1.0) as i64;
+        for number in matched.recording.frames_by(every) {
             let frame = replay.frame(number);
             let scene = frame.scene();
             for spot in frame.vehicles().filter_map(|it| frame.spot(it)) {

@@ -98,8 +98,7 @@ impl<'a> Replay<'a> {
     /// The instant of `frame`. A vehicle is in it from its first state with a position until its front bumper passes
     /// an exit.
     pub fn frame(&self, frame: i64) -> Frame<'_> {
-        let tracks = self.matched.recording.tracks.iter().enumerate();
-        let present = tracks.filter_map(|(track, it)| Some((track, it.at(frame)?)));
+        let present = self.matched.present(frame);
         let seen: Vec<Seen> = present.filter_map(|(track, at)| self.seen(track, at)).collect();
         let mut ids: Vec<(i64, VehicleId)> =
             seen.iter().map(|it| (self.matched.recording.tracks[it.id as usize].id, it.id)).collect();

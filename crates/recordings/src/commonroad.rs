@@ -14,7 +14,9 @@ use laneweave_maps::Problem;
 use laneweave_maps::xml::{Element, Visitor, XmlError, number, walk};
 
 use crate::error::RecordingError;
+use crate::gaps::leave_out_parts;
 use crate::recording::{Recording, RoadUser, Track};
+use crate::table::in_range;
 use obstacle::Obstacle;
 
 /// Largest file that is read [B].
@@ -35,12 +37,15 @@ pub fn read(bytes: &[u8]) -> Result<(Recording, Vec<Problem>), RecordingError> {
     if !(step > 0.0 && step.is_finite()) {
         return Err(RecordingError::NoStep { line, element: "commonRoad", attribute: "timeStepSize" });
     }
+    in_range(1000.0 * step, line, "timeStepSize")?;
     problems.extend(standing.problem());
     problems.sort_by_key(|it| it.line);
     if tracks.is_empty() {
         return Err(RecordingError::Empty { problems });
     }
-    Ok((Recording { step, tracks, ..Recording::default() }, problems))
+    let mut recording = Recording { step, tracks, ..Recording::default() };
+    leave_out_parts(&mut recording, &mut problems);
+    Ok((recording, problems))
 }
 
 /// A recording under construction, obstacle by obstacle.

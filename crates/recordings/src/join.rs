@@ -22,6 +22,8 @@ const ACCELERATION: f64 = 3.0;
 const SLOWEST: f64 = 2.0;
 /// No more time is missing between two windows [s].
 const LONGEST: f64 = 3.0;
+/// No recordings of one place are further apart, by the places of their vehicles [s].
+const FARTHEST: f64 = 1e9;
 /// At least this share of the vehicles with known ids are where they should be.
 const SHARE: f64 = 0.8;
 
@@ -274,7 +276,9 @@ impl Pair<'_> {
             return None;
         }
         let time = ((b.x - a.x) * velocity[0] + (b.y - a.y) * velocity[1]) / squared;
-        Some((self.before[here].frame - self.after[there].frame) as f64 * step + time)
+        let lag = (self.before[here].frame - self.after[there].frame) as f64 * step + time;
+        // This form also refuses NaN.
+        (lag.abs() <= FARTHEST).then_some(lag)
     }
 
     /// The two states that are nearest to each other, one of them the first or last of its recording.

@@ -11,6 +11,7 @@ mod cut_ins;
 pub mod datasets;
 mod error;
 mod file;
+mod gaps;
 pub mod interaction;
 mod join;
 mod lanes;
@@ -18,6 +19,7 @@ mod matching;
 mod moves;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod presence;
 mod problems;
 mod purpose;
 mod recording;

@@ -7,6 +7,7 @@ use laneweave_network::{Lanelet, LaneletIndex, Network, Point, Side, turn};
 
 use crate::lanes::Lanes;
 use crate::moves::{Move, Moves};
+use crate::presence::Presence;
 use crate::recording::{Recording, State, Track};
 use crate::smooth;
 
@@ -31,6 +32,7 @@ pub struct Matched<'a> {
     /// are no vehicles.
     pub places: Vec<Vec<Option<Place>>>,
     pub(crate) moves: Moves,
+    presence: Presence,
 }
 
 /// A vehicle in one frame.
@@ -79,7 +81,13 @@ impl<'a> Matched<'a> {
         let moves = Moves::new(network, recording.step);
         let matcher = Matcher { lanelets: &network.lanelets, lanes, moves: &moves, step: recording.step };
         let places = recording.tracks.iter().map(|it| matcher.places(it)).collect();
-        Matched { network, recording, places, moves }
+        Matched { network, recording, places, moves, presence: Presence::of(&recording.tracks) }
+    }
+
+    /// The tracks that have a state in `frame`, each with the number of that state, in order.
+    pub fn present(&self, frame: i64) -> impl Iterator<Item = (usize, usize)> {
+        let near = self.presence.near(frame);
+        near.filter_map(move |track| Some((track, self.recording.tracks[track].at(frame)?)))
     }
 
     /// The lanelets beside `lanelet` on a side, whether or not the graph permits changes to them.
@@ -91,9 +99,9 @@ impl<'a> Matched<'a> {
     /// driving order.
     pub fn frame(&self, frame: i64) -> Vec<Present<'_>> {
         let mut present: Vec<Present<'_>> = Vec::new();
-        for (track, places) in self.recording.tracks.iter().zip(&self.places) {
-            let Some(at) = track.at(frame) else { continue };
-            let Some(place) = places[at] else { continue };
+        for (number, at) in self.present(frame) {
+            let track = &self.recording.tracks[number];
+            let Some(place) = self.places[number][at] else { continue };
             let acceleration =
                 smooth::acceleration(&track.states, at, ACCELERATION_REACH, self.recording.step);
             present.push(Present { track, state: &track.states[at], place, acceleration });

@@ -116,15 +116,6 @@ impl RoadUser {
     }
 }
 
-/// Numbers beyond all `taken` ones, or, where one of those is very large, between them.
-pub(crate) fn free_ids(taken: HashSet<i64>) -> impl Iterator<Item = i64> {
-    /// Larger numbers are not exact everywhere.
-    const LARGE: i64 = 1 << 52;
-    let last = taken.iter().max().copied().unwrap_or(0);
-    let first = if last < LARGE { last.max(0) + 1 } else { 1 };
-    (first..).filter(move |it| !taken.contains(it))
-}
-
 impl Recording {
     /// Moves its positions into the frame of a map with its (0, 0) at this latitude and longitude [°]. Without both
     /// origins it stays where it is.
@@ -143,6 +134,21 @@ impl Recording {
         self.names.get(&id).cloned().unwrap_or_else(|| id.to_string())
     }
 
+    /// Every `every`-th frame from the first one on, as far as somebody is there.
+    pub fn frames_by(&self, every: i64) -> Vec<i64> {
+        let Some((first, _)) = self.frames() else { return Vec::new() };
+        let all = self.tracks.iter().flat_map(|it| &it.states).map(|it| it.frame);
+        let mut frames: Vec<i64> = all.filter(|it| (it - first) % every == 0).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        frames
+    }
+
+    /// Ids that no track has.
+    pub fn free_ids(&self) -> impl Iterator<Item = i64> + use<> {
+        free_ids(self.tracks.iter().map(|it| it.id).collect())
+    }
+
     /// First and last frame with a road user.
     pub fn frames(&self) -> Option<(i64, i64)> {
         let first = self.tracks.iter().filter_map(|it| it.states.first()).map(|it| it.frame).min()?;
@@ -156,4 +162,13 @@ impl Track {
     pub fn at(&self, frame: i64) -> Option<usize> {
         self.states.binary_search_by_key(&frame, |it| it.frame).ok()
     }
+}
+
+/// Numbers beyond all `taken` ones, or, where one of those is very large, between them.
+pub(crate) fn free_ids(taken: HashSet<i64>) -> impl Iterator<Item = i64> {
+    /// Larger numbers are not exact everywhere.
+    const LARGE: i64 = 1 << 52;
+    let last = taken.iter().max().copied().unwrap_or(0);
+    let first = if last < LARGE { last.max(0) + 1 } else { 1 };
+    (first..).filter(move |it| !taken.contains(it))
 }

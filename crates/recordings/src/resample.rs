@@ -7,27 +7,28 @@ use crate::recording::State;
 /// The states at the frames of `to` [s] between those of `from` [s], by the cubic through positions and velocities
 /// (Hermite). Nothing is known within an interruption.
 pub fn resampled(states: &[State], from: f64, to: f64) -> Vec<State> {
+    states.chunk_by(|a, b| b.frame == a.frame + 1).flat_map(|it| unbroken(it, from, to)).collect()
+}
+
+/// The same of states without an interruption.
+fn unbroken(states: &[State], from: f64, to: f64) -> Vec<State> {
     /// Frames at the same time have numbers that agree but for rounding.
     const ROUNDING: f64 = 1e-6;
-    let (Some(first), Some(last)) = (states.first(), states.last()) else { return Vec::new() };
+    let (first, last) = (&states[0], &states[states.len() - 1]);
     let time = |it: &State| it.frame as f64 * from;
     let frames = (time(first) / to - ROUNDING).ceil() as i64..=(time(last) / to + ROUNDING).floor() as i64;
-    let mut at = 0;
-    let mut found = Vec::with_capacity((frames.end() - frames.start() + 1).max(0) as usize);
-    for frame in frames {
+    let state = |frame: i64| {
         let moment = frame as f64 * to / from;
-        while states.get(at + 1).is_some_and(|it| it.frame as f64 <= moment + ROUNDING) {
-            at += 1;
-        }
-        let [before, after] = [at, (at + 1).min(states.len() - 1)].map(|it| &states[it]);
+        let at =
+            ((moment + ROUNDING).floor() as i64 - first.frame).clamp(0, states.len() as i64 - 1) as usize;
+        let (before, after) = (&states[at], states.get(at + 1));
         let share = (moment - before.frame as f64).max(0.0);
-        if share <= ROUNDING {
-            found.push(State { frame, ..*before });
-        } else if after.frame - before.frame == 1 {
-            found.push(between(before, after, share, from, frame));
+        match after.filter(|_| share > ROUNDING) {
+            Some(after) => between(before, after, share, from, frame),
+            None => State { frame, ..*before },
         }
-    }
-    found
+    };
+    frames.map(state).collect()
 }
 
 /// The state at a `share` of the time `step` [s] between two frames.

@@ -30,6 +30,7 @@ pub use layout::{AngleUnit, Axes, Columns, Layout, LengthUnit, Point, TimeUnit, 
 use row::Flaw;
 pub(crate) use rows::Fields;
 use rows::{MAXIMUM_ROW, Rows};
+pub(crate) use times::in_range;
 pub(crate) use unused::file_beside;
 
 /// Reads a table of `layout`, with what is `known` from other files. Rows that cannot be used are left out and listed

@@ -44,12 +44,12 @@ pub(super) fn looks(matched: &Matched, replay: &Replay) -> (Vec<Vec<Look>>, f64)
     let mut tracks = vec![Vec::new(); matched.recording.tracks.len()];
     let every = (EVERY / matched.recording.step).round().max(1.0) as i64;
     let period = every as f64 * matched.recording.step;
-    let Some((first, last)) = matched.recording.frames() else { return (tracks, period) };
+    let Some((first, _)) = matched.recording.frames() else { return (tracks, period) };
     let in_view = InView::of(matched);
     let watch = Watch { matched, in_view };
-    let numbers: Vec<i64> = (0..=(last - first) / every).collect();
-    let of = |number: &i64| watch.at(&replay.frame(first + number * every), *number);
-    let seen: Vec<Vec<(VehicleId, Look)>> = numbers.par_iter().map(of).collect();
+    let frames = matched.recording.frames_by(every);
+    let of = |frame: &i64| watch.at(&replay.frame(*frame), (frame - first) / every);
+    let seen: Vec<Vec<(VehicleId, Look)>> = frames.par_iter().map(of).collect();
     seen.into_iter().flatten().for_each(|(track, look)| tracks[track as usize].push(look));
     (tracks, period)
 }

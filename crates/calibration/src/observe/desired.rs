@@ -99,10 +99,9 @@ impl Speeds {
     /// What the drivers of the recording of `matched` show.
     pub(crate) fn of(matched: &Matched, replay: &Replay) -> Speeds {
         let mut tracks: Vec<Vec<SpeedSeen>> = matched.recording.tracks.iter().map(|_| Vec::new()).collect();
-        let Some((first, last)) = matched.recording.frames() else { return Speeds { tracks } };
         let in_view = InView::of(matched);
-        let every = (EVERY / matched.recording.step).round().max(1.0) as usize;
-        let frames: Vec<i64> = (first..=last).step_by(every).collect();
+        let every = (EVERY / matched.recording.step).round().max(1.0) as i64;
+        let frames = matched.recording.frames_by(every);
         let of = |number: &i64| seen_at(matched, replay, &in_view, *number);
         let seen: Vec<Vec<(usize, SpeedSeen)>> = frames.par_iter().map(of).collect();
         seen.into_iter().flatten().for_each(|(track, it)| tracks[track].push(it));

@@ -10,6 +10,7 @@ use super::layout::{Axes, Field, Layout, Point};
 use super::row::{Class, Flaw, Row};
 use super::times::{Times, in_range, shortest};
 use crate::error::RecordingError;
+use crate::gaps::leave_out_parts;
 use crate::problems::Problems;
 use crate::recording::{Recording, RoadUser, State, Track, free_ids};
 use crate::smooth::motion;
@@ -141,7 +142,10 @@ impl<'a> Draft<'a> {
         };
         tracks.iter_mut().for_each(|it| self.complete(it, step));
         let utm_origin = self.known.utm_origin;
-        Ok((Recording { step, tracks, names, utm_origin }, self.problems.into_list()))
+        let mut recording = Recording { step, tracks, names, utm_origin };
+        let mut problems = self.problems.into_list();
+        leave_out_parts(&mut recording, &mut problems);
+        Ok((recording, problems))
     }
 
     /// Gives tracks their numbers: their own, and free ones where the table has texts, which are returned.

@@ -66,7 +66,7 @@ impl Times {
 }
 
 /// Whether a recording may have this time between frames [ms].
-pub(super) fn in_range(step_ms: f64, line: usize, columns: &str) -> Result<(), RecordingError> {
+pub(crate) fn in_range(step_ms: f64, line: usize, columns: &str) -> Result<(), RecordingError> {
     let (from, to) = STEPS;
     if (from..=to).contains(&step_ms) {
         return Ok(());

@@ -22,8 +22,8 @@ const USUAL: [(Field, &[&str]); 7] = [
 const RECORDINGS: [&str; 6] =
     ["case_id", "recordingid", "recording_id", "location", "scenario_id", "sequence_id"];
 
-/// A problem that names the columns of a table with the header `first` that a `layout` does not name, although it has no
-/// other column for what they hold.
+/// A problem that names the columns of a table with the header `first` that a `layout` does not name, although it has
+/// no other column for what they hold.
 pub(super) fn columns(first: &Fields, layout: &Layout) -> Option<Problem> {
     let names: Vec<String> = first.iter().map(|it| String::from_utf8_lossy(it).into_owned()).collect();
     let columns = &layout.columns;

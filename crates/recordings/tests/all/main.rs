@@ -6,6 +6,7 @@ mod commonroad;
 mod cut_ins;
 mod datasets;
 mod drawn_twice;
+mod far_away;
 mod interaction;
 mod interaction_write;
 mod join;

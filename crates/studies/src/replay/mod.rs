@@ -47,7 +47,9 @@ const STEP: f64 = 0.1;
 /// # Errors
 /// If a recording cannot be read, or has only one frame.
 pub fn scenario(map: PathBuf, replay: Replay) -> Result<(Scenario, Vec<String>), Fault> {
-    let Windows { recording, files, notes, .. } = open_windows(&replay.recording, replay.columns.as_deref())?;
+    let Windows { recording, files, mut notes, problems } =
+        open_windows(&replay.recording, replay.columns.as_deref())?;
+    notes.extend(problems.iter().map(ToString::to_string));
     let (first, last) = recording.frames().unwrap_or_default();
     if first == last {
         let place = replay.recording.first().map_or(String::new(), |it| it.display().to_string());
