@@ -204,7 +204,10 @@ impl Stage {
                     self.tell(id, &Message { put, ..Message::default() });
                 }
             }
-            Asked::Undo(_) => self.source.undo()?,
+            Asked::Undo(_) => {
+                self.source.undo()?;
+                self.tell_hands();
+            }
             Asked::Twin(is_wanted) => {
                 self.carry_out();
                 self.source.twin(is_wanted)?;
