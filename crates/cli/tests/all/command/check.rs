@@ -187,9 +187,13 @@ fn a_map_whose_lanelets_lack_borders_says_that_first() {
     let text = folder.laneweave("check half.osm").text();
     assert!(text.starts_with(&format!("{first}.\n")), "{text}");
     assert!(
-        text.contains(&format!("\nProblems ({}; --json lists all):\n  borders: {first}\n", 1 + lacking)),
+        text.contains(&format!("\nProblems ({}; --json lists all):\n  borders: {first}\n", 2 + lacking)),
         "{text}"
     );
+    let unused = format!(
+        "lanelets with a member in the role centerline, {lacking} in all: the centre line is computed"
+    );
+    assert!(text.contains(&unused), "{text}");
     let told = folder.laneweave("run half.osm --duration 1").errors();
     assert!(told.starts_with(&format!("warning: map: borders: {first}\n")), "{told}");
 
