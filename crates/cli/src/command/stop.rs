@@ -13,6 +13,8 @@ use signal_hook::flag;
 /// Base of the exit code of a program that a signal ended, to which the signal's number is added: a convention of
 /// shells.
 const SIGNALLED: i32 = 128;
+/// The exit code after SIGHUP, which has the same number wherever there is one.
+const HUNG_UP: usize = 129;
 
 /// The flag that the first Ctrl-C, SIGTERM or SIGHUP sets. A second Ctrl-C or SIGTERM ends the program at once, with
 /// its exit code; a second SIGHUP does not, because a terminal that closes sends more than one.
@@ -64,10 +66,7 @@ impl Stop {
 
     /// Whether the terminal has closed, so that nobody may read any more.
     pub(super) fn has_hung_up(&self) -> bool {
-        #[cfg(unix)]
-        return self.code.load(Ordering::Acquire) == (SIGNALLED + SIGHUP) as usize;
-        #[cfg(not(unix))]
-        return false;
+        self.code.load(Ordering::Acquire) == HUNG_UP
     }
 }
 
@@ -77,7 +76,7 @@ fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|it| it.strip_prefix("SigIgn:"));
     let ignored = ignored.and_then(|it| u64::from_str_radix(it.trim(), 16).ok()).unwrap_or(0);
-    ignored >> (signal - 1) & 1 == 1
+    (ignored >> (signal - 1)) & 1 == 1
 }
 
 /// Has a file that grows beyond a limit of the system refused, as one on a full disk is: otherwise a signal ends the
