@@ -12,6 +12,8 @@ mod compare;
 mod demand;
 #[cfg(test)]
 mod explain;
+#[cfg(test)]
+mod far_away;
 mod fit;
 #[cfg(test)]
 mod gates;
