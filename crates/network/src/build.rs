@@ -10,7 +10,7 @@ use crate::junction::Junctions;
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex, Side};
 use crate::law::RoadLaw;
 use crate::network::Network;
-use crate::width::note_open;
+use crate::width::{close_to_long, note_open};
 
 /// Why lanelets do not make a network.
 #[derive(Debug, Error, PartialEq)]
@@ -66,6 +66,7 @@ impl Network {
         let entrances = gates(&lanelets, &chain_of, |it| previous[it.at()].is_empty(), is_long);
         let exits = gates(&lanelets, &chain_of, |it| lanelets[it.at()].following.is_empty(), is_end);
         let lane_drops = lane_drops(&chains, &exits);
+        close_to_long(&mut chains, &lanelets, &lane_drops);
         note_ends(&mut chains, &lane_drops);
         note_slow_places(&mut chains);
         note_open(&mut chains, &lanelets, [&entrances, &exits]);

@@ -3,7 +3,8 @@
 use crate::chain::{Chain, ChainIndex};
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
 
-/// A lane shorter than this, up to its next fork or merge, is no entrance, and a road shorter than this has no exit [m].
+/// A lane shorter than this, up to its next fork or merge, is no entrance, and a road shorter than this has no exit
+/// [m].
 pub const MINIMUM_GATE_LENGTH: f64 = 10.0;
 
 /// Lanes side by side at which vehicles enter, or leave, the map.

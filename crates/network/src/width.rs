@@ -2,7 +2,7 @@
 //! as wide as the vehicle.
 
 use crate::chain::{Chain, ChainIndex};
-use crate::class::Class;
+use crate::class::{Class, Classes};
 use crate::gate::Gate;
 use crate::lanelet::Lanelet;
 
@@ -17,6 +17,19 @@ const STEP: f64 = 0.5;
 const LEAST_WINDOW: f64 = 5.0;
 /// A lane that is nowhere wider than this was drawn without a width [m].
 const NO_WIDTH: f64 = 0.01;
+
+/// Closes to long vehicles the lanes that end beside others, `lane_drops`, and are nowhere as wide as they: with one
+/// beside them, they could never leave it.
+pub(crate) fn close_to_long(chains: &mut [Chain], lanelets: &[Lanelet], lane_drops: &[ChainIndex]) {
+    let long: Classes = Class::ALL.into_iter().filter(|it| it.is_long()).collect();
+    for index in lane_drops {
+        let chain = &mut chains[index.at()];
+        let widest = widths(chain, lanelets).iter().map(|it| it.1).fold(0.0, f64::max);
+        if (BODIES[0]..BODIES[1]).contains(&widest) {
+            chain.classes = chain.classes.without(long);
+        }
+    }
+}
 
 /// Computes for each chain where it is wide enough. A lane that begins or ends beside others, or that is too narrow
 /// for cars and leads nowhere, begins and ends according to its width. Any other lane is open to all, but counts as

@@ -67,8 +67,8 @@ pub(super) fn own_arm(mouth: &Mouth) -> Option<Arm> {
     Some(Arm { heading: mouth.pose.heading + PI, arriving, leaving })
 }
 
-/// Draws an arm at this angle to the road, of a `length` in this range [m], and also returns its outer end. The two setbacks [m] are: from the mouth
-/// to the middle of the junction, and from there to the beginning of the arm.
+/// Draws an arm at this angle to the road, of a `length` in this range [m], and also returns its outer end. The two
+/// setbacks [m] are: from the mouth to the middle of the junction, and from there to the beginning of the arm.
 pub(super) fn new_arm(
     pen: &mut Pen,
     mouth: &Mouth,

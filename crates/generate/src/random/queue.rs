@@ -14,8 +14,8 @@ const SETBACK: f64 = 4.0;
 const CROSSING: [f64; 2] = [60.0, 120.0];
 
 impl Pen {
-    /// Draws a road of one lane that crosses at a right angle, with lights for it and for all lanes that end at `mouth`.
-    /// Returns where the road goes on beyond, and where the crossing one does.
+    /// Draws a road of one lane that crosses at a right angle, with lights for it and for all lanes that end at
+    /// `mouth`. Returns where the road goes on beyond, and where the crossing one does.
     pub(super) fn light_behind(&mut self, mouth: &Mouth) -> [Mouth; 2] {
         self.lights(mouth);
         let width = mouth.width();

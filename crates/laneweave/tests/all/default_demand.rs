@@ -61,11 +61,12 @@ fn more_get_through_than_where_queues_begin_but_where_all_pass_one_part() {
 }
 
 #[test]
-fn long_vehicles_get_into_a_lane_that_is_wide_enough_for_them_on_its_last_metres_only() {
-    // Random map 3: the lane of its off-ramp is beside the road for 66 m, and 2.55 m wide on 9 m of these; beside the
-    // road there is another lane on the left all along.
-    let mut world = prepared(3, Some(1800.0)).world;
-    (0..12_000).for_each(|_| world.step());
-    let (left, waiting, stuck) = (world.counts().left, world.waiting(), world.counters().stuck);
-    assert!(left > 450 && waiting < 5 && stuck == 0, "{left} {waiting} {stuck}");
+fn all_vehicles_leave_a_narrow_lane_that_ends_or_never_come_there() {
+    // On these random maps a lane that ends is narrower than long vehicles all along.
+    for seed in [3, 10_008] {
+        let mut world = prepared(seed, Some(1500.0)).world;
+        (0..12_000).for_each(|_| world.step());
+        let (left, stuck) = (world.counts().left, world.counters().stuck);
+        assert!(left > 300 && stuck == 0, "{seed}: {left} {stuck}");
+    }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_6;
 
 use laneweave::network::{Gate, Network, Sections};
 use laneweave_scenario::scenario::{Origin, Prepared, Scenario, Turns, VehiclesPerHour, prepare};
-use laneweave_sim::Event;
+use laneweave_sim::{Event, Place};
 use laneweave_test_data::data;
 
 fn scenario(map: &str, turns: &[Turns]) -> Scenario {
@@ -177,7 +177,9 @@ fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where
     let what = "no lane leads from the entrance -101121 to the destinations of these shares";
     assert_eq!((fault.place.as_str(), fault.what.as_str()), ("turns", what));
     scenario.turns[0] = Turns { straight: 2.0, right: 1.0, ..turns };
-    let weights = prepared(&scenario).world.demand().origins[0].weights.clone();
+    let world = prepared(&scenario).world;
+    let is_it = |it: &&laneweave_sim::Origin| matches!(&it.place, Place::Gate(gate) if gate.id == -101_122);
+    let weights = world.demand().origins.iter().find(is_it).expect("the entrance").weights.clone();
     let [one, other, right] = weights.iter().copied().filter(|it| *it > 0.0).collect::<Vec<_>>()[..] else {
         panic!("two lanes straight on and one to the right: {weights:?}")
     };

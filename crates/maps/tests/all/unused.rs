@@ -55,13 +55,21 @@ fn a_road_of_which_all_is_used_has_no_problems() {
     assert_eq!(map.problems, []);
 }
 
+/// Checks that the map with each of these is read, and that what traffic does not use is named once.
+fn are_named(cases: &[(String, &str)]) {
+    for (more, expected) in cases {
+        let map = lanelet2::read(road(more).as_bytes(), &ReadOptions::default()).unwrap();
+        let problems: Vec<String> =
+            map.problems.iter().map(|it| Problem { line: None, ..it.clone() }.to_string()).collect();
+        let matching = problems.iter().filter(|it| it.contains(expected)).count();
+        assert_eq!(matching, 1, "{expected}: {problems:?}");
+        assert!(map.problems.iter().all(|it| !it.remedy.is_empty() && it.line.is_some()), "{problems:?}");
+    }
+}
+
 #[test]
-fn what_a_lanelet2_map_holds_and_traffic_does_not_use_is_named() {
-    let ramp = way(61, 51, 3) + &way(62, 52, 4) + &lane(71, 61, 62, "");
-    let join = way(61, 2, 53) + &way(62, 22, 54) + &lane(71, 62, 61, "");
-    let one_way = tag("one_way", "no");
-    let centre = "<member type='way' ref='32' role='centerline'/>";
-    let cases: [(String, &str); 22] = [
+fn rules_that_traffic_does_not_use_are_named() {
+    are_named(&[
         (
             rule(81, "digital_speed_limit") + &rule(82, "digital_speed_limit"),
             "regulatory element 81: regulatory elements of the subtype digital_speed_limit, 2 in all: traffic does not know",
@@ -82,6 +90,13 @@ fn what_a_lanelet2_map_holds_and_traffic_does_not_use_is_named() {
             rule(81, "right_of_way"),
             "regulatory element 81: right_of_way: no lanelet for vehicles refers to it",
         ),
+    ]);
+}
+
+#[test]
+fn lanelets_and_tags_that_traffic_does_not_use_are_named() {
+    let centre = "<member type='way' ref='32' role='centerline'/>";
+    are_named(&[
         (
             beside(&tag("subtype", "walkway")),
             "lanelet 71: lanelets of the subtype walkway, 2 in all: no vehicle may",
@@ -112,13 +127,21 @@ fn what_a_lanelet2_map_holds_and_traffic_does_not_use_is_named() {
             "lanelets with the tag speed_limit:vehicle:truck, 2 in all",
         ),
         (
-            beside(&one_way),
+            beside(&tag("one_way", "no")),
             "lanelet 71: it may be used in both directions; simulated traffic uses the forward one only",
         ),
         (
             beside(centre),
             "lanelets with a member in the role centerline, 2 in all: the centre line is computed",
         ),
+    ]);
+}
+
+#[test]
+fn elements_that_traffic_does_not_use_are_named() {
+    let ramp = way(61, 51, 3) + &way(62, 52, 4) + &lane(71, 61, 62, "");
+    let join = way(61, 2, 53) + &way(62, 22, 54) + &lane(71, 62, 61, "");
+    are_named(&[
         (
             format!("<relation id='81'>{}</relation>", tag("type", "multipolygon")),
             "relation 81: areas (relations of the type multipolygon), 1 in all: traffic drives on lanelets only",
@@ -144,15 +167,7 @@ fn what_a_lanelet2_map_holds_and_traffic_does_not_use_is_named() {
             lane(71, 33, 31, "<member type='relation' ref='99' role='regulatory_element'/>"),
             "lanelet 71: its regulatory element 99 is missing, so it has no effect",
         ),
-    ];
-    for (more, expected) in cases {
-        let map = lanelet2::read(road(&more).as_bytes(), &ReadOptions::default()).unwrap();
-        let problems: Vec<String> =
-            map.problems.iter().map(|it| Problem { line: None, ..it.clone() }.to_string()).collect();
-        let matching = problems.iter().filter(|it| it.contains(expected)).count();
-        assert_eq!(matching, 1, "{expected}: {problems:?}");
-        assert!(map.problems.iter().all(|it| !it.remedy.is_empty() && it.line.is_some()), "{problems:?}");
-    }
+    ]);
 }
 
 #[test]

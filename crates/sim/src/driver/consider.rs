@@ -156,8 +156,8 @@ fn follow_route(
     Concern { last_place: last_place(waypoint, motion.x), ..concern }
 }
 
-/// The last place for the next change on the route of a driver at `x` [m], infinite if that is so far ahead that it does
-/// not react to it yet.
+/// The last place for the next change on the route of a driver at `x` [m], infinite if that is so far ahead that it
+/// does not react to it yet.
 pub(crate) fn last_place(waypoint: &Waypoint, x: f64) -> f64 {
     if waypoint.last_place - x < REACTS_WITHIN { waypoint.last_place } else { f64::INFINITY }
 }

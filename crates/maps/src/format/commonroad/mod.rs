@@ -23,6 +23,7 @@ mod links;
 mod obstacle;
 mod rules;
 mod speed;
+mod unheeded;
 mod unused;
 
 use std::collections::hash_map::Entry;
@@ -65,7 +66,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     let (elements, places, mut lanelets) =
         shaped(&document, options.law, &mut contents.limits_of_law, &mut problems);
     links::connect(&elements, &places, &mut lanelets, &mut problems);
-    unused::count(&document, &mut unused);
+    unheeded::count(&document, &mut unused);
     problems.extend(unused.problems());
     let [latitude, longitude] = document.place;
     problems.extend(left_hand::warning(latitude.zip(longitude), None, options));
