@@ -58,7 +58,7 @@ fn a_road_of_which_all_is_used_has_no_problems() {
 /// Checks that the map with each of these is read, and that what traffic does not use is named once.
 fn are_named(cases: &[(String, &str)]) {
     for (more, expected) in cases {
-        let map = lanelet2::read(road(more).as_bytes(), &ReadOptions::default()).unwrap();
+        let map = lanelet2::read(road(more).as_bytes(), &ReadOptions::default()).expect("a map");
         let problems: Vec<String> =
             map.problems.iter().map(|it| Problem { line: None, ..it.clone() }.to_string()).collect();
         let matching = problems.iter().filter(|it| it.contains(expected)).count();

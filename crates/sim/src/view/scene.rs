@@ -291,7 +291,8 @@ impl<'a> Scene<'a> {
                 let index = first + place;
                 let (it, lane_change) = (&lane.motions()[index], &lane.lane_change_states()[index]);
                 let gap = start + it.rear();
-                let to_merge = leg.before().and_then(|before| self.to_merge(before, start, it, lane_change));
+                let to_merge =
+                    leg.before().and_then(|before| self.merge_ahead(before, start, it, lane_change));
                 let merge = to_merge.filter(|it| *it > gap);
                 Leader { spot: Spot { chain, index }, gap: merge.unwrap_or(gap), is_on_way: merge.is_none() }
             });
@@ -309,7 +310,7 @@ impl<'a> Scene<'a> {
 
     /// Distance to the merge [m], if the rear of the vehicle `it`, whose chain starts `base` ahead, is still on another
     /// route into that chain. It is in the way from the merge on, until its rear is there.
-    fn to_merge(
+    fn merge_ahead(
         &self,
         chain: ChainIndex,
         base: f64,
