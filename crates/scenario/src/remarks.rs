@@ -1,6 +1,6 @@
 //! Remarks on valid maps on which traffic may look odd: one function for each remark.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
 
 use laneweave_maps::Map;
@@ -62,6 +62,7 @@ pub fn remarks(map: &Map, network: &Network, places: &Places, drivers: &[Style])
         limits_of_law(map),
         extreme_limits(&network.lanelets),
         jumps(&network.lanelets),
+        turns_at_once(&network.lanelets),
         short_entrances(network, places),
         bends(network, drivers),
     ];
@@ -259,6 +260,26 @@ fn jumps(lanelets: &[Lanelet]) -> Option<Remark> {
         kmh(to.speed_limit)
     );
     remark(what, "change the limits in steps, or correct speed_limit")
+}
+
+/// Lanelets that begin in another direction than the one before ends in.
+fn turns_at_once(lanelets: &[Lanelet]) -> Option<Remark> {
+    let pairs =
+        lanelets.iter().flat_map(|it| it.following.iter().map(move |next| (it, &lanelets[next.at()])));
+    let turn = |(from, to): &(&Lanelet, &Lanelet)| {
+        let turn = to.centre.heading(0.0) - from.centre.heading(from.length());
+        turn.cos().clamp(-1.0, 1.0).acos()
+    };
+    let odd: Vec<_> = pairs.map(|it| (it, turn(&it))).filter(|it| it.1 > FRAC_PI_2).collect();
+    let ((from, to), turn) = odd.first()?;
+    let what = format!(
+        "in {} places a lane turns by more than 90° at one point (lanelet {} to {}: {:.0}°): vehicles turn on the spot there",
+        odd.len(),
+        from.id,
+        to.id,
+        turn.to_degrees()
+    );
+    remark(what, "draw the bend, or disconnect the lanelets if nobody can drive there")
 }
 
 /// Entrances after which drivers soon have to stop.

@@ -81,6 +81,30 @@ fn limits_that_jump_are_counted() {
 }
 
 #[test]
+fn a_lane_that_turns_back_at_one_point_is_named() {
+    let node = |(id, x, y): (i64, f64, f64)| format!("<node id='{id}' x='{x}' y='{y}'/>");
+    let points =
+        [(1, 0.0, 4.0), (2, 100.0, 4.0), (3, 0.0, 0.0), (4, 100.0, 0.0), (5, 60.0, 4.5), (6, 60.0, 9.0)];
+    let nodes: String = points.into_iter().chain([(7, 104.0, 6.0)]).map(node).collect();
+    let way = |(id, nodes): (i64, &[i64])| {
+        let nodes: String = nodes.iter().map(|it| format!("<nd ref='{it}'/>")).collect();
+        format!("<way id='{id}'>{nodes}</way>")
+    };
+    let ways = [(11, &[1, 2][..]), (12, &[3, 4]), (13, &[2, 5]), (14, &[4, 7, 6])].map(way).concat();
+    let lanelet = |(id, left): (i64, i64)| {
+        let member = |it: i64, role: &str| format!("<member type='way' ref='{it}' role='{role}'/>");
+        let tags = "<tag k='type' v='lanelet'/><tag k='speed_limit' v='50'/>";
+        format!("<relation id='{id}'>{}{}{tags}</relation>", member(left, "left"), member(left + 1, "right"))
+    };
+    let folder = Folder::new();
+    let text = format!("<osm>{nodes}{ways}{}</osm>", [(21, 11), (22, 13)].map(lanelet).concat());
+    fs::write(folder.path().join("m.osm"), text).unwrap();
+    let expected = "in 1 places a lane turns by more than 90° at one point (lanelet 21 to 22: 105°): vehicles turn on the spot there; draw \
+                    the bend, or disconnect the lanelets if nobody can drive there";
+    assert!(of(&folder).iter().any(|it| it == expected), "{:?}", of(&folder));
+}
+
+#[test]
 fn a_lane_alone_has_nothing_to_change_to() {
     let found = remarks("motorway --lanes 1 --length 1000", &[]);
     assert_eq!(
