@@ -48,44 +48,46 @@ pub(crate) fn loose_ends(
     );
     let (by_start, by_end) = (by_corner(&starts), by_corner(&ends));
     let goes_on = |from: usize, to: usize| turn(last_heading(from), first_heading(to)).abs() < STRAIGHT_ON;
-    let mut problems = Vec::new();
-    let mut note = |lane: usize, what: &str, remedy: &str| {
-        problems.push(Problem {
-            element: format!("lanelet {}", lanes[lane].id),
-            line: lanes[lane].line,
-            what: what.into(),
-            remedy: remedy.into(),
-        });
+    let problem = |lane: usize, (what, remedy): (&str, &str)| Problem {
+        element: format!("lanelet {}", lanes[lane].id),
+        line: lanes[lane].line,
+        what: what.into(),
+        remedy: remedy.into(),
     };
-    for lane in last {
-        if at_corner(&by_start, &starts, ends[lane]).any(|it| it != lane && goes_on(lane, it)) {
-            note(
-                lane,
-                "it ends at only one of the two points at which another lanelet begins, so it leads nowhere",
-                BOTH_POINTS,
-            );
-        } else if is_inside(&inner, ends[lane]) {
-            note(lane, "it ends in the middle of a border of another lanelet, so it leads nowhere", SPLIT);
-        }
-    }
-    for lane in first {
-        if at_corner(&by_end, &ends, starts[lane]).any(|it| it != lane && goes_on(it, lane)) {
-            note(
-                lane,
-                "it begins at only one of the two points at which another lanelet ends, so nothing leads there",
-                BOTH_POINTS,
-            );
-        } else if is_inside(&inner, starts[lane]) {
-            note(
-                lane,
-                "it begins in the middle of a border of another lanelet, so nothing leads there",
-                SPLIT,
-            );
-        }
-    }
-    problems
+    let flaw = |lane: usize, own: Corners, is_half_met: bool, [half_met, inside]: [Flaw; 2]| {
+        let flaw = if is_half_met { Some(half_met) } else { is_inside(&inner, own).then_some(inside) };
+        flaw.map(|it| problem(lane, it))
+    };
+    let after = last.into_iter().filter_map(|lane| {
+        let mut there = at_corner(&by_start, &starts, ends[lane]).filter(|it| *it != lane);
+        flaw(lane, ends[lane], there.any(|it| goes_on(lane, it)), ENDS)
+    });
+    let before = first.into_iter().filter_map(|lane| {
+        let mut there = at_corner(&by_end, &ends, starts[lane]).filter(|it| *it != lane);
+        flaw(lane, starts[lane], there.any(|it| goes_on(it, lane)), BEGINS)
+    });
+    after.chain(before).collect()
 }
 
+/// What is wrong, and its remedy.
+type Flaw = (&'static str, &'static str);
+
+/// A lane ends where it meets another one half, or inside of a border.
+const ENDS: [Flaw; 2] = [
+    (
+        "it ends at only one of the two points at which another lanelet begins, so it leads nowhere",
+        BOTH_POINTS,
+    ),
+    ("it ends in the middle of a border of another lanelet, so it leads nowhere", SPLIT),
+];
+/// The same where it begins.
+const BEGINS: [Flaw; 2] = [
+    (
+        "it begins at only one of the two points at which another lanelet ends, so nothing leads there",
+        BOTH_POINTS,
+    ),
+    ("it begins in the middle of a border of another lanelet, so nothing leads there", SPLIT),
+];
 const BOTH_POINTS: &str = "let both of its borders meet those of the other one there, and where lanes join or part, draw a lanelet for each \
                            of them between both points";
 const SPLIT: &str =

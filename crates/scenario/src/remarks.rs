@@ -170,13 +170,19 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
     let first_id = |chain: &Chain| network.lanelets[chain.lanelets[0].at()].id;
     let narrow = || network.chains.iter().filter(|it| it.is_tight_for_long || it.open != Chain::WIDE);
     let is_closed = |it: &&Chain| it.open[0][0] > it.open[0][1];
+    // Its map lets long vehicles use it.
+    let is_shut = |it: &&Chain| it.classes != network.lanelets[it.lanelets[0].at()].classes;
     let closed: Vec<i64> = narrow().filter(is_closed).map(first_id).collect();
-    let ends =
-        narrow().filter(|it| !is_closed(it) && !it.is_tight_for_long).map(first_id).collect::<Vec<_>>();
-    let tight: Vec<i64> =
-        narrow().filter(|it| !is_closed(it) && it.is_tight_for_long).map(first_id).collect();
+    let shut: Vec<i64> = network.chains.iter().filter(is_shut).map(first_id).collect();
+    let others = || narrow().filter(|it| !is_closed(it) && !is_shut(it));
+    let ends: Vec<i64> = others().filter(|it| !it.is_tight_for_long).map(first_id).collect();
+    let tight: Vec<i64> = others().filter(|it| it.is_tight_for_long).map(first_id).collect();
     let parts = [
         (closed, "narrower than a car: no vehicle drives there"),
+        (
+            shut,
+            "narrower than 2.55 m and end beside others: closed to long vehicles, which could not leave them",
+        ),
         (ends, "begin or end where they are too narrow for a car (1.8 m) or a long vehicle (2.55 m)"),
         (tight, "narrower than 2.55 m: long vehicles avoid them"),
     ];

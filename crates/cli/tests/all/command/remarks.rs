@@ -105,6 +105,15 @@ fn a_lane_that_turns_back_at_one_point_is_named() {
 }
 
 #[test]
+fn a_narrow_lane_that_ends_is_named_as_closed_to_long_vehicles() {
+    // The lane of the on-ramp of this map is 2.3 m wide.
+    let found = remarks("random --seed 3", &[]);
+    let expected = "1 narrower than 2.55 m and end beside others: closed to long vehicles, which could not leave them (as at \
+                    lanelet 52)";
+    assert!(found.iter().any(|it| it.contains(expected)), "{found:?}");
+}
+
+#[test]
 fn a_lane_alone_has_nothing_to_change_to() {
     let found = remarks("motorway --lanes 1 --length 1000", &[]);
     assert_eq!(
