@@ -1,7 +1,7 @@
 //! From the demand of a scenario to that of the world.
 
 use laneweave_network::{Classes, Network, Position};
-use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, World};
+use laneweave_sim::{Demand, Fleet, Place, Places, Rate, Share, Trips, World};
 use laneweave_study::units::METRES_PER_KM;
 
 use super::line::{add_lines, check_lines};
@@ -135,6 +135,7 @@ fn set_od_rows(scenario: &Scenario, origin: &Origin, demand: &mut Demand) -> Res
         let it = &mut demand.origins[from];
         if sums[from].is_none() {
             it.weights.fill(0.0);
+            it.trips = Trips::All;
         }
         let sum = sums[from].unwrap_or(0.0) + row.vehicles_per_hour;
         let what = format!("a demand from {} to {}", row.from, row.to);

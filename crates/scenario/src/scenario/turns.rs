@@ -6,7 +6,7 @@
 //! drivers take the best.
 
 use laneweave_network::{Branch, ChainIndex, Network, Sections, Side};
-use laneweave_sim::{Demand, Place, World};
+use laneweave_sim::{Demand, Place, Trips, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +80,7 @@ pub(super) fn set_turns(
                 1.0 / it.place.chains().len() as f64;
         }
         it.weights.fill(0.0);
+        it.trips = Trips::All;
         let arrived = arrived(parts, &ways_on).map_err(|left| {
             let what = format!(
                 "with these shares {:.0} % of the drivers from the entrance {} never arrive",

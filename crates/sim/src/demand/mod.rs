@@ -22,6 +22,7 @@ use crate::demand::headways::Headways;
 use crate::demand::line::{Departures, Line};
 use crate::demand::places::Places;
 use crate::demand::rate::Rate;
+use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::state::lane::VehicleId;
 use crate::state::random::{Purpose, Random};
@@ -55,6 +56,17 @@ pub struct Origin {
     pub rate: Rate,
     /// Weight of each destination. A destination that cannot be reached from here does not count.
     pub weights: Vec<f64>,
+    /// Whether destinations count for which the road is too short.
+    pub trips: Trips,
+}
+
+/// Which trips from an origin count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trips {
+    /// Those with road enough for the lane changes of their route; all, if none has it.
+    InTime,
+    /// All that have a weight: somebody has asked for them.
+    All,
 }
 
 /// A style's share of the drivers.
@@ -89,7 +101,7 @@ impl Demand {
         let weights = vec![1.0; destinations.len()];
         let origin = |place: Place| {
             let rate = total * place.lanes(network) as f64 / lanes.max(1) as f64;
-            Origin { place, rate: Rate::constant(rate), weights: weights.clone() }
+            Origin { place, rate: Rate::constant(rate), weights: weights.clone(), trips: Trips::InTime }
         };
         Demand {
             origins: origins.into_iter().map(origin).collect(),
@@ -118,6 +130,24 @@ impl Demand {
         drawn.or_else(last).map_or(0, |(it, _)| {
             it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
         })
+    }
+
+    /// The same demand, without the trips of origins that have [`Trips::InTime`] for which the road is too short.
+    pub(crate) fn in_time(mut self, network: &Network, navigator: &Navigator) -> Demand {
+        let places: Vec<&Place> = self.origins.iter().map(|it| &it.place).collect();
+        let late = navigator.late_trips(network, &places, self.exits().len());
+        for trips in late.chunk_by(|one, other| one[0] == other[0]) {
+            let origin = &mut self.origins[trips[0][0]];
+            let mut weights = origin.weights.clone();
+            trips.iter().for_each(|it| weights[it[1]] = 0.0);
+            let leads =
+                |number: &usize| navigator.leads(network, &origin.place, *number as u16, Classes::ALL);
+            let is_left = (0..weights.len()).any(|it| weights[it] > 0.0 && leads(&it));
+            if origin.trips == Trips::InTime && is_left {
+                origin.weights = weights;
+            }
+        }
+        self
     }
 
     /// Checks that all its numbers are sensible.

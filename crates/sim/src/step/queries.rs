@@ -18,6 +18,7 @@ use crate::record::counts::Counts;
 use crate::record::events::Event;
 use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
+use crate::route::in_time::Trip;
 use crate::route::place::{InnerPlace, Place};
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
@@ -117,6 +118,13 @@ impl World {
         let demand = self.arrivals.demand();
         let (place, classes) = (&demand.origins[origin].place, demand.fleet.classes());
         self.roads.navigator().leads(self.roads.network(), place, destination as u16, classes)
+    }
+
+    /// The trips that have a route with too little road for its lane changes, whether the demand has them or not.
+    pub fn late_trips(&self) -> Vec<Trip> {
+        let (network, demand) = (self.roads.network(), self.arrivals.demand());
+        let origins: Vec<&Place> = demand.origins.iter().map(|it| &it.place).collect();
+        self.roads.navigator().late_trips(network, &origins, demand.exits().len())
     }
 
     /// The classes of the demand that start at an origin: those that may use one of its lanes, and reach a destination

@@ -187,3 +187,34 @@ fn a_closed_map_is_called_so() {
          and end with a lanelet of 10 m or more"
     );
 }
+
+#[test]
+fn trips_with_too_little_road_for_their_lane_changes_are_left_out_and_driven_if_they_are_named() {
+    // From the on-ramp, 52, to the end of the motorway, 50: 100 m at 150 km/h are 2.4 s.
+    const FAULT: &str = "there is too little road for the lane changes of 1 trip (52 to 50)";
+    let make = "weaving --length 100 --speed-limit 150";
+    let found = remarks(make, &[]);
+    let [.., last] = &found[..] else { panic!("no remark") };
+    let remedy =
+        "name them in demand.od to have them all the same, or let drivers change lanes on a longer stretch";
+    assert_eq!(*last, format!("{FAULT}: the demand has none of them where it does not name them; {remedy}"));
+    let folder = Folder::new();
+    assert_eq!(folder.laneweave(&format!("generate {make} m.osm")).code(), 0);
+    let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
+    assert_eq!(report["late_trips"], serde_json::json!([[52, 50]]));
+    let trips = |run: &str| {
+        let run = folder.laneweave(&format!("run {run} --duration 300 --record 0 --format csv"));
+        assert_eq!(run.code(), 0, "{}", run.errors());
+        let column = |rows: &str, name: &str| rows.split(',').position(|it| it == name).unwrap();
+        let text = folder.read("out/trips.csv");
+        let [from, to] = ["entrance", "destination"].map(|it| column(text.lines().next().unwrap(), it));
+        let trip = |row: &str| row.split(',').nth(from) == Some("52") && row.split(',').nth(to) == Some("50");
+        (text.lines().filter(|it| trip(it)).count(), run.errors())
+    };
+    assert_eq!(trips("m.osm --demand 1000").0, 0);
+    let named = "map = \"m.osm\"\n[[demand.od]]\nfrom = \"52\"\nto = \"50\"\nvehicles_per_hour = 200\n";
+    fs::write(folder.path().join("named.toml"), named).unwrap();
+    let (count, errors) = trips("named.toml");
+    assert!(count > 5, "{count}");
+    assert!(errors.contains(&format!("warning: map: {FAULT}: the demand has them")), "{errors}");
+}
