@@ -3,6 +3,7 @@
 
 mod capacity;
 mod fault;
+mod late_trips;
 mod recording;
 mod remarks;
 mod replay;
@@ -14,8 +15,9 @@ mod windows;
 
 pub use capacity::{Bottleneck, Capacity, Estimate};
 pub use fault::{Fault, FaultKind, did_you_mean};
+pub use late_trips::{Late, on_late_trips};
 pub use recording::{elsewhere, open_recording, open_recordings, unreadable};
-pub use remarks::{Remark, late_trips, left_out, remarks};
+pub use remarks::{Remark, remarks};
 pub use replay::{AtItsEnd, Departures, HandOver, Played, Player, Recorded, Start};
 pub use script::{COMMAND_COLUMNS, Script, Written, refused};
 pub use source::Source;

@@ -6,7 +6,7 @@ use std::fmt;
 use laneweave_maps::Map;
 use laneweave_models::Style;
 use laneweave_network::{Beside, Chain, ChainIndex, Classes, Lanelet, Network, Polyline, Position, Side};
-use laneweave_sim::{Navigator, Place, Places, World};
+use laneweave_sim::{Place, Places};
 use laneweave_study::units::KMH_PER_MPS;
 use serde::Serialize;
 
@@ -69,7 +69,7 @@ pub fn remarks(map: &Map, network: &Network, places: &Places, drivers: &[Style])
     all.into_iter().flatten().take(MOST_REMARKS).collect()
 }
 
-fn remark(what: String, remedy: &str) -> Option<Remark> {
+pub(crate) fn remark(what: String, remedy: &str) -> Option<Remark> {
     Some(Remark { what, remedy: remedy.into() })
 }
 
@@ -212,51 +212,6 @@ pub(crate) fn unused_lanes(network: &Network, driven: Classes) -> Option<Remark>
         first.classes.names()
     );
     remark(what, "give the demand a share of them, such as demand.buses, or a line of buses")
-}
-
-/// The trips between `places` that have a route with too little road for its lane changes, by the ids of their ends.
-pub fn late_trips(network: &Network, places: &Places) -> Vec<[i64; 2]> {
-    let Places { origins, destinations } = places;
-    let navigator = Navigator::towards(network, destinations);
-    let late = navigator.late_trips(network, &origins.iter().collect::<Vec<_>>(), destinations.len());
-    late.iter().map(|[from, to]| [origins[*from].id(), destinations[*to].id()]).collect()
-}
-
-/// Trips that the default demand leaves out, by the ids of their ends.
-pub fn left_out(trips: &[[i64; 2]]) -> Option<Remark> {
-    let what =
-        format!("{}: the demand has none of them where it does not name them", too_little_road(trips)?);
-    remark(
-        what,
-        "name them in demand.od to have them all the same, or let drivers change lanes on a longer stretch",
-    )
-}
-
-/// Trips of the demand of `world` with too little road for their lane changes, and those that it leaves out.
-pub(crate) fn hurried_trips(world: &World) -> [Option<Remark>; 2] {
-    let demand = world.demand();
-    let (driven, out): (Vec<_>, Vec<_>) =
-        world.late_trips().into_iter().partition(|[from, to]| demand.origins[*from].weights[*to] > 0.0);
-    let ids = |trips: Vec<[usize; 2]>| -> Vec<[i64; 2]> {
-        let ids = |[from, to]: [usize; 2]| [demand.origins[from].place.id(), demand.destinations[to].id()];
-        trips.into_iter().map(ids).collect()
-    };
-    let driven = too_little_road(&ids(driven)).and_then(|it| {
-        let what =
-            format!("{it}: the demand has them, and most of their drivers miss a turn and hold others up");
-        remark(what, "leave them out of the demand, or let drivers change lanes on a longer stretch")
-    });
-    [driven, left_out(&ids(out))]
-}
-
-/// What is wrong with late `trips`, the first of which are named; `None` without trips.
-fn too_little_road(trips: &[[i64; 2]]) -> Option<String> {
-    const SHOWN: usize = 5;
-    let first: Vec<String> = trips.iter().take(SHOWN).map(|[from, to]| format!("{from} to {to}")).collect();
-    let more = if trips.len() > SHOWN { ", …" } else { "" };
-    let plural = if trips.len() == 1 { "trip" } else { "trips" };
-    let named = || format!("{} {plural} ({}{more})", trips.len(), first.join(", "));
-    (!trips.is_empty()).then(|| format!("there is too little road for the lane changes of {}", named()))
 }
 
 /// Legal limits that replace missing ones.

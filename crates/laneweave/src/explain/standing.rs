@@ -1,7 +1,7 @@
 //! Why a vehicle stands, in words.
 
 use laneweave_network::Network;
-use laneweave_sim::{FIRST_OBSTACLE, JunctionHindrance, StandsFor, VehicleId};
+use laneweave_sim::{FIRST_OBSTACLE, JunctionHindrance, Spot, StandsFor, VehicleId, World, wait_cycle};
 
 /// A vehicle, or an obstacle by its place in the scenario.
 fn named(id: VehicleId) -> String {
@@ -11,8 +11,17 @@ fn named(id: VehicleId) -> String {
     }
 }
 
+/// Why the vehicle at `spot` stands, with all who wait for each other where that is so.
+pub(crate) fn why_it_stands(world: &World, spot: Spot) -> String {
+    let reason = stands_for(&laneweave_sim::stands_for(world, spot), world.network());
+    match &wait_cycle(world, spot)[..] {
+        [] => reason,
+        circle => format!("{reason}; {} wait for each other, each for the next", vehicles(circle)),
+    }
+}
+
 /// The reason, as one sentence.
-pub(crate) fn stands_for(it: &StandsFor, network: &Network) -> String {
+fn stands_for(it: &StandsFor, network: &Network) -> String {
     match it {
         StandsFor::Leader { vehicle, gap } => {
             format!("it stands behind {}, {gap:.1} m ahead", named(*vehicle))

@@ -9,7 +9,7 @@ use laneweave_study::units::KMH_PER_MPS;
 use crate::Simulation;
 
 use super::flip::flips;
-use super::standing::stands_for;
+use super::standing::why_it_stands;
 use super::words::{act, flip_in_words, story};
 
 /// The explanation of a driver at a moment, if it was on the road.
@@ -79,11 +79,7 @@ fn full(world: &World, account: &Account, with_flips: bool) -> String {
     let mut told = story(account, world.network(), (motion.x, motion.speed), &found);
     if motion.speed < STANDS {
         // Writing to a string never fails.
-        let _ = writeln!(
-            told,
-            "  {}",
-            stands_for(&laneweave_sim::stands_for(world, account.spot), world.network())
-        );
+        let _ = writeln!(told, "  {}", why_it_stands(world, account.spot));
     }
     told
 }
@@ -106,7 +102,7 @@ pub fn trip(simulation: &mut Simulation, id: VehicleId, steps: u32, with_flips: 
                 lines.take(now, &account, with_flips, world.clock().dt);
                 stood = if world.scene().motion(spot).speed < STANDS { stood + 1 } else { 0 };
                 if stood == told_after {
-                    let why = stands_for(&laneweave_sim::stands_for(world, spot), world.network());
+                    let why = why_it_stands(world, spot);
                     lines.single(now, &format!("has stood for {TOLD_AFTER} s: {why}"));
                 }
             }

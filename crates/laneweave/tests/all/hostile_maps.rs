@@ -113,18 +113,23 @@ fn a_window_of_16_m_passes_most_of_what_one_of_60_m_does_where_more_come_than_it
     }
 }
 
-/// The world of a random map at 70 % of the demand from which on queues grow, with audit.
-fn random_world(number: u64) -> World {
+/// The world of a random map at a `share` of the demand from which on queues grow, with audit.
+fn random_world(number: u64, share: f64) -> World {
     let map = std::env::temp_dir().join(format!("laneweave-random-map-{}-{number}.osm", std::process::id()));
     std::fs::write(&map, lanelet2::write(&generate::random(number).drawing)).expect("there is room");
-    let world = world(&map, 1, [f64::INFINITY, 0.7]);
+    let world = world(&map, 1, [f64::INFINITY, share]);
     std::fs::remove_file(&map).expect("it is ours");
     world
 }
 
-/// Simulates so many seconds on a random map: no vehicle collides, is stuck or lost.
+/// Simulates so many seconds on a random map at 70 % of the demand from which on queues grow.
 fn drive_randomly(number: u64, seconds: u32) {
-    let mut world = random_world(number);
+    drive_at(number, 0.7, seconds);
+}
+
+/// The same at another `share`: no vehicle collides, is stuck or lost.
+fn drive_at(number: u64, share: f64, seconds: u32) {
+    let mut world = random_world(number, share);
     (0..10 * seconds).for_each(|_| world.step());
     let counters = world.counters();
     assert_eq!(
@@ -147,4 +152,14 @@ fn who_comes_to_a_lane_that_ends_can_leave_it() {
 #[test]
 fn who_comes_onto_ground_that_is_shared_over_less_than_a_vehicle_comes_onto_it() {
     drive_randomly(7096, 900);
+}
+
+#[test]
+fn who_stops_at_a_red_light_stands_in_nobodys_way() {
+    drive_randomly(10_002, 900);
+}
+
+#[test]
+fn who_waits_beside_a_stream_in_a_narrow_bend_waits_for_nobody_that_it_does_not_touch() {
+    drive_at(10_173, 1.5, 900);
 }

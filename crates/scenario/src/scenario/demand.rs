@@ -70,7 +70,7 @@ pub(super) fn demand(
 
 impl super::Demand {
     /// The classes that drive, those of lines among them.
-    pub(super) fn classes(&self) -> Classes {
+    pub(crate) fn classes(&self) -> Classes {
         let shares = self.fleet().shares().into_iter().filter(|it| it.1 > 0.0).map(|it| it.0);
         shares.chain(self.line.iter().map(|it| it.class)).collect()
     }

@@ -20,7 +20,8 @@ use super::turns::check_arrivals;
 use super::{Origin, Scenario, SumoFile};
 use crate::capacity::{Estimate, Queues};
 use crate::fault::Fault;
-use crate::remarks::{Remark, hurried_trips, remarks, unused_lanes};
+use crate::late_trips::on_late_trips_of;
+use crate::remarks::{Remark, remarks, unused_lanes};
 use crate::replay::{Player, Recorded};
 use crate::script::Script;
 use crate::style::{Population, StyleTemplate};
@@ -187,7 +188,7 @@ fn prepare_with(
     let queues = Queues::new(&Population::by_speed(&mixture), scenario.demand.fleet(), network.law);
     let settling = Settling { scenario, measured, queues: &queues, made: &made };
     let Settled { world, basis, capacity } = settling.settle(&network, build)?;
-    remarks.extend(hurried_trips(&world).into_iter().flatten());
+    remarks.extend(on_late_trips_of(&world).into_iter().flatten());
     let origins = origins(&world, measured);
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);

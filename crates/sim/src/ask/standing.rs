@@ -160,10 +160,9 @@ fn before_a_junction(world: &World, scene: &Scene, spot: Spot, stop: f64) -> Sta
 
 /// Vehicles from other lanes that pass before the vehicle at `spot`, which has a reservation.
 fn before_it(scene: &Scene, spot: Spot) -> Vec<VehicleId> {
-    let (own, slot) = (scene.reservation(spot), scene.lane_change(spot).reservation);
     let mut others: Vec<VehicleId> = Vec::new();
-    if let Some(own) = own {
-        others.extend(own.holds.iter().flat_map(|it| earlier(scene, own, slot, it)).map(|it| it.vehicle));
+    if let Some(own) = scene.reservation(spot) {
+        others.extend(own.holds.iter().flat_map(|it| earlier(scene, own, it)).map(|it| it.vehicle));
     }
     others.sort_unstable();
     others.dedup();

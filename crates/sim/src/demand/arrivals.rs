@@ -3,14 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use crate::demand::Demand;
+use crate::demand::destinations::late_trips;
 use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::source::{Arrival, Coming, Queue, Source};
+use crate::route::in_time::LateTrip;
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
 use crate::state::externals::FIRST_INSERTED;
 use crate::state::goal::Destination;
 use crate::state::lane::{Lane, VehicleId};
 use crate::state::random::Random;
+use crate::state::vehicle::Class;
 use crate::view::scene::Scene;
 
 /// The demand, and the queues of the vehicles that have arrived.
@@ -48,8 +51,15 @@ pub(crate) struct Backlog {
 
 impl Arrivals {
     /// No vehicle has arrived yet.
-    pub(crate) fn new(roads: &Roads, demand: Demand) -> Arrivals {
-        let sources = Source::all(roads.network(), roads.navigator(), &demand, &roads.random());
+    pub(crate) fn new(roads: &Roads, mut demand: Demand) -> Arrivals {
+        let (network, navigator) = (roads.network(), roads.navigator());
+        let late = late_trips(network, navigator, &demand);
+        let sources = Source::all(network, navigator, &demand, &late, &roads.random());
+        for LateTrip { origin, destination, .. } in late {
+            if !sources[origin].leads_to(destination, Class::Car, navigator) {
+                demand.origins[origin].weights[destination] = 0.0;
+            }
+        }
         let perimeter = PerimeterControl::new(roads.network());
         let weights = demand.population.iter().map(|it| it.weight).collect();
         let lines = vec![LineCount::default(); demand.lines.len()];

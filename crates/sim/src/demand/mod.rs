@@ -1,12 +1,13 @@
 //! Demand: how many vehicles arrive, of which kind, from where and to where, and at which headways.
 //!
-//! * `arrivals.rs` the part `Arrivals`; `source.rs` origins and their queues; `rate.rs`, `headways.rs` and `places.rs`
-//!   when and where vehicles arrive
+//! * `arrivals.rs` the part `Arrivals`; `source.rs` origins and their queues, `destinations.rs` where their trips lead;
+//!   `rate.rs`, `headways.rs` and `places.rs` when and where vehicles arrive
 //! * `perimeter_control.rs` when trips may begin through a full town
 //! * `assignment.rs` where a demand leads; `capacity` of `laneweave_scenario` estimates capacity from it
 
 pub(crate) mod arrivals;
 pub(crate) mod assignment;
+pub(crate) mod destinations;
 pub(crate) mod error;
 pub(crate) mod headways;
 pub(crate) mod line;
@@ -22,7 +23,6 @@ use crate::demand::headways::Headways;
 use crate::demand::line::{Departures, Line};
 use crate::demand::places::Places;
 use crate::demand::rate::Rate;
-use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::state::lane::VehicleId;
 use crate::state::random::{Purpose, Random};
@@ -130,24 +130,6 @@ impl Demand {
         drawn.or_else(last).map_or(0, |(it, _)| {
             it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
         })
-    }
-
-    /// The same demand, without the trips of origins that have [`Trips::InTime`] for which the road is too short.
-    pub(crate) fn in_time(mut self, network: &Network, navigator: &Navigator) -> Demand {
-        let places: Vec<&Place> = self.origins.iter().map(|it| &it.place).collect();
-        let late = navigator.late_trips(network, &places, self.exits().len());
-        for trips in late.chunk_by(|one, other| one[0] == other[0]) {
-            let origin = &mut self.origins[trips[0][0]];
-            let mut weights = origin.weights.clone();
-            trips.iter().for_each(|it| weights[it[1]] = 0.0);
-            let leads =
-                |number: &usize| navigator.leads(network, &origin.place, *number as u16, Classes::ALL);
-            let is_left = (0..weights.len()).any(|it| weights[it] > 0.0 && leads(&it));
-            if origin.trips == Trips::InTime && is_left {
-                origin.weights = weights;
-            }
-        }
-        self
     }
 
     /// Checks that all its numbers are sensible.

@@ -3,7 +3,6 @@
 use laneweave_network::{ChainIndex, Classes, Gate, LaneletIndex, Network};
 
 use crate::demand::Demand;
-use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::navigate::Navigator;
 use crate::route::place::{InnerPlace, Place};
 use crate::state::vehicle::LONGEST;
@@ -36,8 +35,7 @@ impl Places {
             if cut_off.is_empty() {
                 break;
             }
-            let restrictions = ClassRestrictions::of(network, Classes::NONE);
-            let navigator = Navigator::with_restrictions(network, destination, restrictions, 0);
+            let navigator = Navigator::towards_for(network, destination, Classes::NONE);
             cut_off.retain(|it| !navigator.leads(network, &self.origins[*it], 0, Classes::ALL));
         }
         let mut numbers = 0..self.origins.len();

@@ -7,11 +7,13 @@ use std::collections::VecDeque;
 use laneweave_network::{ChainIndex, Gate, Network};
 use serde::{Deserialize, Serialize};
 
+use crate::demand::destinations::destinations;
 use crate::demand::headways::Headways;
 use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::rate::Rate;
-use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
+use crate::demand::{Demand, SECONDS_PER_HOUR};
 use crate::junction::storage_section::StorageSection;
+use crate::route::in_time::LateTrip;
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::state::clock::Clock;
@@ -125,6 +127,7 @@ impl Source {
         network: &Network,
         navigator: &Navigator,
         demand: &Demand,
+        late: &[LateTrip],
         random: &Random,
     ) -> Vec<Source> {
         // The first stream of each source has the number of the source; further streams follow.
@@ -133,8 +136,7 @@ impl Source {
             let lanes = queues(network, &origin.place);
             let count = if demand.headways == Headways::Exponential { 1 } else { origin.lanes(network) };
             let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
-            let destinations: Vec<_> =
-                navigator.restrictions().map(|it| destinations(network, navigator, origin, it)).collect();
+            let destinations = destinations(network, navigator, (origin, number as usize), late);
             let leads = |class: &Class| !destinations[navigator.restriction_of(*class)].is_empty();
             let may_start =
                 |class: &Class| lanes.iter().any(|it| network.chain(it.chain).classes.has(*class));
@@ -187,6 +189,12 @@ impl Source {
             && streams.iter().zip(&other.streams).all(stream_fits)
             && lanes.len() == other.lanes.len()
             && lanes.iter().zip(&other.lanes).all(queue_fits)
+    }
+
+    /// Whether trips of a class lead from here to a destination.
+    pub(crate) fn leads_to(&self, destination: usize, class: Class, navigator: &Navigator) -> bool {
+        let of_class = &self.destinations[navigator.restriction_of(class)];
+        of_class.iter().any(|it| navigator.number(it.0) == Some(destination))
     }
 
     /// The rate that a user has set, if one has [veh/h].
@@ -355,23 +363,4 @@ fn from_the_slow_side(network: &Network, gate: &Gate) -> Vec<ChainIndex> {
     let mut chains = gate.chains.clone();
     chains.sort_by_key(|chain| lanes_beyond(*chain));
     chains
-}
-
-/// The destinations, from the table `first` on, that can be reached from an origin, with cumulated weights.
-fn destinations(
-    network: &Network,
-    navigator: &Navigator,
-    origin: &Origin,
-    first: u16,
-) -> Vec<(Destination, f64)> {
-    let weighted = (first..)
-        .zip(&origin.weights)
-        .filter(|(table, weight)| **weight > 0.0 && navigator.leads_to(network, &origin.place, *table));
-    let mut sum = 0.0;
-    weighted
-        .map(|(table, weight)| {
-            sum += weight;
-            (Some(table), sum)
-        })
-        .collect()
 }

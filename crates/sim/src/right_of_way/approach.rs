@@ -101,12 +101,11 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
     let mut junction = Junction::default();
     let mut granted = 0.0;
     if let Some(reservation) = scene.reservation(spot) {
-        let slot = scene.lane_change(spot).reservation;
-        yield_to_earlier(scene, spot, reservation, slot, &mut junction);
+        yield_to_earlier(scene, spot, reservation, &mut junction);
         junction.revokes_from = to_revoke(scene, reservation, motion.speed);
         if junction.revokes_from.is_none() && motion.speed < STANDSTILL {
-            junction.revokes_from = cut_off_from(scene, spot, reservation)
-                .or_else(|| held_up_from(scene, spot, reservation, slot));
+            junction.revokes_from =
+                cut_off_from(scene, spot, reservation).or_else(|| held_up_from(scene, spot, reservation));
         }
         // A revoked part is no longer used.
         let left = junction.revokes_from.map_or(reservation.left(), |from| from - reservation.travelled);
@@ -154,34 +153,42 @@ pub(crate) fn lets_go(scene: &Scene, light: LightIndex, at: f64, speed: f64) -> 
     }
 }
 
-/// The vehicles on the other side of a zone that go before the reservation in `slot`.
+/// The vehicles with reservations on the other side of a zone that are in the way of one that is long or not, in the
+/// order of the zone.
+pub(crate) fn opposite<'a>(
+    scene: &'a Scene,
+    hold: &ZoneReservation,
+    is_long: bool,
+) -> impl DoubleEndedIterator<Item = &'a Reservation> {
+    let (side, touch) = (hold.side, scene.network.junctions.zones[hold.zone.at()].touch);
+    let all = scene.reservations.order(hold.zone);
+    let others =
+        all.filter(move |(it, other)| it.side != side && touch.is_of([is_long, other.length >= LONG]));
+    others.map(|(_, other)| other)
+}
+
+/// Those of them that go before a vehicle with a `reservation`.
 pub(crate) fn earlier<'a>(
     scene: &'a Scene,
     reservation: &'a Reservation,
-    slot: u32,
     hold: &ZoneReservation,
 ) -> impl Iterator<Item = &'a Reservation> {
     let (side, touch) = (hold.side, scene.network.junctions.zones[hold.zone.at()].touch);
     let matters =
         move |other: &Reservation| touch.is_of([reservation.length, other.length].map(|it| it >= LONG));
+    let is_own = move |other: &Reservation| other.vehicle == reservation.vehicle;
     let before =
-        scene.reservations.order(hold.zone).take_while(move |(it, _)| it.slot != slot || it.side != side);
-    let others = before.filter(move |(it, other)| it.side != side && it.slot != slot && matters(other));
+        scene.reservations.order(hold.zone).take_while(move |(it, other)| !is_own(other) || it.side != side);
+    let others = before.filter(move |(it, other)| it.side != side && !is_own(other) && matters(other));
     others.map(|(_, other)| other)
 }
 
 /// Makes the driver yield to vehicles that go before it through a zone.
-fn yield_to_earlier(
-    scene: &Scene,
-    spot: Spot,
-    reservation: &Reservation,
-    slot: u32,
-    junction: &mut Junction,
-) {
+fn yield_to_earlier(scene: &Scene, spot: Spot, reservation: &Reservation, junction: &mut Junction) {
     let is_round = scene.reservations.roundabouts.touches(spot.chain);
     for hold in &reservation.holds {
         let Zone { kind, .. } = scene.network.junctions.zones[hold.zone.at()];
-        let mut others = earlier(scene, reservation, slot, hold);
+        let mut others = earlier(scene, reservation, hold);
         match kind {
             ZoneKind::Merging(stations) => {
                 let to_merge = hold.leave - reservation.travelled;
@@ -260,14 +267,14 @@ fn cut_off_from(scene: &Scene, spot: Spot, reservation: &Reservation) -> Option<
 /// too, or its leader stands before that zone. These may wait for what the driver holds beyond. It returns all of these
 /// zones. If it kept some, others would go after it there and before it elsewhere, and each would wait for the other.
 /// For that reason drivers keep their places at other junctions, where zones do not lie one after the other.
-fn held_up_from(scene: &Scene, spot: Spot, reservation: &Reservation, slot: u32) -> Option<f64> {
+fn held_up_from(scene: &Scene, spot: Spot, reservation: &Reservation) -> Option<f64> {
     if !scene.reservations.roundabouts.touches(spot.chain) {
         return None;
     }
     let standing = scene.ahead(scene.viewpoint(spot)).filter(|it| it.speed < STANDSTILL);
     let free = reservation.travelled + standing.map_or(f64::INFINITY, |it| it.gap);
     let is_held_up = |it: &ZoneReservation| {
-        it.enter > free || earlier(scene, reservation, slot, it).any(|other| other.speed < STANDSTILL)
+        it.enter > free || earlier(scene, reservation, it).any(|other| other.speed < STANDSTILL)
     };
     let mut ahead = reservation.holds.iter().filter(|it| it.enter > reservation.travelled + NEARLY_IN);
     let first = ahead.clone().map(|it| it.enter - BEFORE_REVOKED).reduce(f64::min);

@@ -10,7 +10,7 @@ use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::approach::{LONG, leader_into, lets_go};
+use crate::right_of_way::approach::{LONG, leader_into, lets_go, opposite};
 use crate::right_of_way::oncoming::lag;
 use crate::right_of_way::turns::{clears, is_out_before};
 use crate::state::clock::Clock;
@@ -141,19 +141,16 @@ fn gives_way(scene: &Scene, hold: &ZoneReservation) -> bool {
 /// stands within one of a roundabout.
 fn is_blocked(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
-    let touch = |other: &Reservation| zone.touch.is_of([asking.priority.is_long, other.length >= LONG]);
     let is_round = scene.reservations.roundabouts.touches(applicant.from.chain);
     let stays = |other: &Reservation| other.lacks_space || is_round && other.stands_in(hold);
-    let mut others = scene.reservations.order(hold.zone);
-    zone.kind == ZoneKind::Crossing
-        && others.any(|(it, other)| it.side != hold.side && stays(other) && touch(other))
+    zone.kind == ZoneKind::Crossing && opposite(scene, hold, asking.priority.is_long).any(stays)
 }
 
 fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let other_side = 1 - hold.side;
-    let matters = |is_long: bool| zone.touch.is_of([asking.priority.is_long, is_long]);
-    let turn = scene.reservations.priority(hold.zone, other_side).filter(|it| matters(it.priority.is_long));
+    let matters = |it: &WaitingTurn| zone.touch.is_of([asking.priority.is_long, it.priority.is_long]);
+    let turn = scene.reservations.priority(hold.zone, other_side).filter(matters);
     // A roundabout clears itself: who waits on it, or on the way out, keeps out whoever waits to enter.
     let enters = || scene.reservations.roundabouts.is_entry(applicant.from.chain);
     let clears_it = |it: &WaitingTurn| it.enters && !asking.priority.is_patient && !enters();
@@ -170,13 +167,12 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     if !is_first && turn.is_some_and(|it| waits_for(&it)) {
         return false;
     }
-    let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-    let mut others = others.filter(|(_, other)| matters(other.length >= LONG));
+    let mut others = opposite(scene, hold, asking.priority.is_long);
     let fits = match zone.kind {
-        ZoneKind::Merging(_) => others
-            .next_back()
-            .is_none_or(|(_, other)| follows(scene, applicant, hold, other, asking.clock.dt)),
-        ZoneKind::Crossing => others.all(|(_, other)| clears(scene, applicant, hold, other)),
+        ZoneKind::Merging(_) => {
+            others.next_back().is_none_or(|it| follows(scene, applicant, hold, it, asking.clock.dt))
+        }
+        ZoneKind::Crossing => others.all(|it| clears(scene, applicant, hold, it)),
     };
     fits && (is_first || accepts_lag(scene, applicant, hold, asking))
 }
@@ -217,13 +213,13 @@ fn follows(
     ahead.gap >= applicant.style.follow.jam_gap() && is_secure(applicant.speed, ahead, dt)
 }
 
-/// The nearest vehicle that goes first into a surveyed merge, as the applicant would follow it.
-pub(crate) fn leader_of(scene: &Scene, survey: &Survey) -> Option<Ahead> {
+/// The nearest vehicle that goes first into a surveyed merge, as a vehicle that is long or not would follow it.
+pub(crate) fn leader_of(scene: &Scene, survey: &Survey, is_long: bool) -> Option<Ahead> {
     let zone = |hold: &ZoneReservation| &scene.network.junctions.zones[hold.zone.at()];
     let merges = survey.holds.iter().filter(|it| matches!(zone(it).kind, ZoneKind::Merging(_)));
     let last = |hold: &ZoneReservation| {
-        let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-        others.map(|it| it.1).next_back().and_then(|other| leader_into(scene, hold.leave, hold, other))
+        let last = opposite(scene, hold, is_long).next_back();
+        last.and_then(|other| leader_into(scene, hold.leave, hold, other))
     };
     merges.filter_map(last).reduce(|a, b| if b.gap < a.gap { b } else { a })
 }

@@ -7,7 +7,7 @@ use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::approach::leader_into;
+use crate::right_of_way::approach::{LONG, earlier, leader_into, opposite};
 use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 
@@ -29,21 +29,19 @@ pub(crate) fn not_led_on<'a>(
     let is_merge = |hold: &&ZoneReservation| {
         matches!(scene.network.junctions.zones[hold.zone.at()].kind, ZoneKind::Merging(_))
     };
+    let is_long = applicant.length >= LONG;
     let stays = move |to_merge: f64, hold: &ZoneReservation, other: &Reservation| {
         let ahead = leader_into(scene, to_merge, hold, other);
         ahead.is_some_and(|it| it.gap + other.left().max(0.0) < clear - ROUNDING)
     };
     let asked = survey.holds.iter().filter(is_merge).flat_map(move |hold| {
-        let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-        others.map(|it| it.1).filter(move |other| stays(hold.leave, hold, other))
+        opposite(scene, hold, is_long).filter(move |other| stays(hold.leave, hold, other))
     });
     let own = applicant.reservation.into_iter();
     let given =
         own.flat_map(|own| own.holds.iter().map(move |it| (own, it))).filter(move |it| is_merge(&it.1));
     asked.chain(given.flat_map(move |(own, hold)| {
-        let before =
-            scene.reservations.order(hold.zone).take_while(|(_, it)| it.vehicle != applicant.from.id);
-        let others = before.filter(|(it, _)| it.side != hold.side).map(|it| it.1);
+        let others = earlier(scene, own, hold);
         others.filter(move |other| stays(hold.leave - own.travelled, hold, other))
     }))
 }

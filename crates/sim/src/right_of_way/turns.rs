@@ -11,7 +11,7 @@ use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::approach::LONG;
+use crate::right_of_way::approach::opposite;
 use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 
@@ -63,11 +63,7 @@ pub(crate) fn clears(
 
 /// Delay of the applicant's arrival at a zone by vehicles with reservations [s].
 fn held_up(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, priority: WaitingPriority) -> f64 {
-    let touch = scene.network.junctions.zones[hold.zone.at()].touch;
-    let others = scene.reservations.order(hold.zone).filter(|(it, _)| it.side != hold.side);
-    let matters = |other: &Reservation| touch.is_of([priority.is_long, other.length >= LONG]);
-    let clearances =
-        others.filter(|(_, it)| matters(it)).map(|(_, it)| clearance(scene, applicant, hold, it));
+    let clearances = opposite(scene, hold, priority.is_long).map(|it| clearance(scene, applicant, hold, it));
     clearances.fold(0.0, f64::max) - arrival(scene, applicant, hold)
 }
 

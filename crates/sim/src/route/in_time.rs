@@ -1,55 +1,75 @@
 //! Which trips leave drivers the road that they need for their lane changes.
 
-use laneweave_network::{Beside, Chain, Network, Side};
+use laneweave_models::lateral::Crossing;
+use laneweave_network::{Beside, Chain, Class, Classes, Network, Side};
 
 use crate::route::navigate::Navigator;
 use crate::route::place::Place;
 use crate::route::waypoint::Waypoint;
 use crate::route::ways::Planner;
 
-/// A trip: the numbers of its origin and of its destination in the demand.
-pub type Trip = [usize; 2];
+/// A trip with a route that has too little road for its lane changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LateTrip {
+    /// The number of its origin.
+    pub origin: usize,
+    /// The number of its destination.
+    pub destination: usize,
+    /// The classes for which this is so.
+    pub classes: Classes,
+    /// Those of them for which this is so of all trips from this origin.
+    pub without_others: Classes,
+}
 
-/// A lane change at the speed limit takes at least this time [s], ours: of lone drivers who have less for each of several
-/// changes, or for one behind an entrance, most miss the turn.
+/// A lane change at the speed limit takes at least this time [s], ours: of lone drivers who have less for each of
+/// several changes, or for one behind an entrance, most miss the turn.
 const TIME: f64 = 3.0;
-/// A slow driver changes lanes on this road [m]: that of [`laneweave_models::Crossing`] for a car.
-const ROAD: f64 = 12.0;
-/// So fast is who does it in that time [m/s].
-const SLOW: f64 = ROAD / TIME;
 /// How drivers brake for a change that they must make [m/s²]: comfortably.
 const BRAKING: f64 = 2.0;
 
 impl Navigator {
-    /// The trips from `origins` to the first `destinations` that have a route, but too little road for its lane changes.
-    pub fn late_trips(&self, network: &Network, origins: &[&Place], destinations: usize) -> Vec<Trip> {
+    /// The trips from `origins` to the first `destinations` with too little road for their lane changes, in order.
+    pub fn late_trips(&self, network: &Network, origins: &[&Place], destinations: usize) -> Vec<LateTrip> {
         let mut late = Vec::new();
-        for to in 0..destinations {
-            let tables: Vec<u16> = self.restrictions().map(|first| first + to as u16).collect();
+        let mut has_others = vec![Classes::NONE; origins.len()];
+        for destination in 0..destinations {
+            let tables: Vec<u16> = self.restrictions().map(|first| first + destination as u16).collect();
             let latest: Vec<Vec<f64>> =
                 tables.iter().map(|table| self.latest_starts(network, *table)).collect();
-            for (from, place) in origins.iter().enumerate() {
-                let possible =
-                    || tables.iter().zip(&latest).filter(|it| self.leads_to(network, place, *it.0));
-                let is_in_time = |it: (&u16, &Vec<f64>)| self.is_in_time(network, place, *it.0, it.1);
-                if possible().next().is_some() && !possible().any(is_in_time) {
-                    late.push([from, to]);
+            for (origin, place) in origins.iter().enumerate() {
+                let number = |class: &Class| self.restriction_of(*class);
+                let leads = |it: &Class| self.leads_to(network, place, tables[number(it)]);
+                let is_in_time =
+                    |it: &Class| self.is_in_time(network, place, tables[number(it)], &latest[number(it)]);
+                let led = Class::ALL.into_iter().filter(leads);
+                let (in_time, classes): (Vec<Class>, Vec<Class>) = led.partition(is_in_time);
+                has_others[origin] = has_others[origin].and(in_time.into_iter().collect());
+                if !classes.is_empty() {
+                    let classes = classes.into_iter().collect();
+                    late.push(LateTrip { origin, destination, classes, without_others: Classes::NONE });
                 }
             }
         }
-        late.sort_unstable();
+        for it in &mut late {
+            let has_no_others = |class: &Class| !has_others[it.origin].has(*class);
+            it.without_others = it.classes.iter().filter(has_no_others).collect();
+        }
+        late.sort_unstable_by_key(|it| (it.origin, it.destination));
         late
     }
 
-    /// Whether a driver who uses `table` makes its changes from some lane at `place`.
+    /// Whether a driver who uses `table` makes its changes from some lane at `place`, also over the end of the lane.
     fn is_in_time(&self, network: &Network, place: &Place, table: u16, latest: &[f64]) -> bool {
-        let class = self.restrictions.class(self.restriction(table));
-        let station = match place {
-            Place::Gate(_) => 0.0,
-            Place::Inside(inner) => inner.station,
-        };
+        let class = self.class_of(table);
         let mut lanes = place.chains().iter().filter(|it| network.chain(**it).classes.has(class));
-        lanes.any(|it| latest[it.at()] >= station)
+        match place {
+            Place::Gate(_) => lanes.any(|it| latest[it.at()] >= 0.0),
+            Place::Inside(inner) => lanes.any(|it| {
+                let beyond = network.chain(*it).following.iter().map(|next| latest[next.at()]);
+                let over_the_end = network.chain(*it).length + beyond.fold(f64::NEG_INFINITY, f64::max);
+                latest[it.at()].max(over_the_end) >= inner.station
+            }),
+        }
     }
 
     /// For each chain the last station from which a driver at the speed limit makes all lane changes of its route by
@@ -83,13 +103,16 @@ impl Navigator {
 
 impl Planner<'_> {
     /// The last station on `chain` from which a driver at the speed limit can change over `stretch`, at this speed or
-    /// slowly, and be on the other chain by the station `onward` there [m].
+    /// as slowly as it can be done, and be on the other chain by the station `onward` there [m].
     fn latest_start(&self, chain: &Chain, stretch: &Beside, onward: f64) -> f64 {
         let [start, end] = self.network.window(chain, stretch, self.class());
         let by = end.min(stretch.back(onward));
         let speed = chain.limit(start.max(0.0));
-        let to_slow_down = (speed * speed - SLOW * SLOW).max(0.0) / (2.0 * BRAKING);
-        let ways = [(speed * TIME, 0.0), (ROAD, to_slow_down)];
+        let length = self.class().body().length;
+        let road = Crossing { speed: 0.0, length, duration: TIME }.least_way();
+        let slow = road / TIME;
+        let to_slow_down = (speed * speed - slow * slow).max(0.0) / (2.0 * BRAKING);
+        let ways = [(speed * TIME, 0.0), (road, to_slow_down)];
         let possible = ways.into_iter().filter(|(road, _)| by - start >= *road);
         possible.map(|(road, before)| by - road - before).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -138,6 +161,12 @@ mod tests {
             let origins: Vec<Place> = network.entrances.iter().cloned().map(Place::Gate).collect();
             Navigator::new(&network).late_trips(&network, &origins.iter().collect::<Vec<_>>(), 2)
         });
-        assert_eq!((short.len(), long.len()), (2, 0));
+        let [cars, trucks] = [&short, &long].map(|late| {
+            let of = |class| late.iter().filter(|it| it.classes.has(class)).count();
+            [Class::Car, Class::Truck].map(of)
+        });
+        // A truck has the table of a car here, as nobody may drive elsewhere than others.
+        assert_eq!((cars, trucks), ([2, 2], [0, 0]));
+        assert!(short.iter().all(|it| it.without_others.is_empty()), "there is another exit: {short:?}");
     }
 }

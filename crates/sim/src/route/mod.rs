@@ -7,7 +7,8 @@
 //! * `disutility.rs` turns and lights on a route; `fitting_speed.rs` the desired speed before and in bends and lower
 //!   limits
 //! * `links.rs`, `guidance.rs` and `renew_routes.rs` measured travel times, and the routes planned with them
-//! * `reachable.rs` which destinations can be reached, and `in_time.rs` which of them with road enough; `wander.rs` the way of drivers without one
+//! * `reachable.rs` which destinations can be reached, and `in_time.rs` which of them with road enough; `wander.rs` the
+//!   way of drivers without one
 //! * `class_restrictions.rs` which lanes a class may not use, or avoids; `closures.rs` which lanelets users closed, and
 //!   where something stands (`standing.rs`)
 

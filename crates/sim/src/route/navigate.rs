@@ -7,7 +7,7 @@
 
 use std::borrow::Cow;
 
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Classes, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::closures::Closures;
@@ -61,6 +61,11 @@ impl Navigator {
     /// Plans all routes to `destinations`, for classes that avoid nothing.
     pub fn towards(network: &Network, destinations: &[Place]) -> Navigator {
         Navigator::with_restrictions(network, destinations, ClassRestrictions::default(), 0)
+    }
+
+    /// Plans all routes to `destinations`, for these `classes` with what they may not use or avoid.
+    pub fn towards_for(network: &Network, destinations: &[Place], classes: Classes) -> Navigator {
+        Navigator::with_restrictions(network, destinations, ClassRestrictions::of(network, classes), 0)
     }
 
     /// Plans all routes to `destinations`, at most [`Demand::MOST_DESTINATIONS`], for classes with their restrictions.
@@ -261,6 +266,11 @@ impl Navigator {
         let number = destination.map_or(wanders, |it| usize::from(it) % self.of_restriction);
         let table = (restriction * self.of_restriction + number) as u16;
         (number < wanders || restriction > 0).then_some(table)
+    }
+
+    /// A class that uses a table.
+    pub(crate) fn class_of(&self, table: u16) -> Class {
+        self.restrictions.class(self.restriction(table))
     }
 
     /// The class restriction of a table.

@@ -58,7 +58,7 @@ impl Navigator {
     /// Whether the destination with this table can be reached from `place`, by who may be there. From a trip end inside
     /// the map, it must also be far enough.
     pub(crate) fn leads_to(&self, network: &Network, place: &Place, destination: u16) -> bool {
-        let class = self.restrictions.class(self.restriction(destination));
+        let class = self.class_of(destination);
         let may_start = |it: &&ChainIndex| network.chain(**it).classes.has(class);
         match place {
             _ if !place.chains().iter().any(|it| may_start(&it)) => false,

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Classes, Network, Position};
+use laneweave_network::{ChainIndex, Class, Classes, Network, Position};
 use xxhash_rust::xxh3::Xxh3;
 
 use crate::demand::Demand;
 use crate::demand::arrivals::{Arrivals, LineCount};
 use crate::demand::assignment::{Assignment, Thinning};
+use crate::demand::destinations::late_trips;
 use crate::demand::error::WorldError;
 use crate::demand::line::{Line, LineStop};
 use crate::driver::intention::{Intention, intention};
@@ -18,7 +19,7 @@ use crate::record::counts::Counts;
 use crate::record::events::Event;
 use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
-use crate::route::in_time::Trip;
+use crate::route::in_time::LateTrip;
 use crate::route::place::{InnerPlace, Place};
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
@@ -120,11 +121,22 @@ impl World {
         self.roads.navigator().leads(self.roads.network(), place, destination as u16, classes)
     }
 
-    /// The trips that have a route with too little road for its lane changes, whether the demand has them or not.
-    pub fn late_trips(&self) -> Vec<Trip> {
-        let (network, demand) = (self.roads.network(), self.arrivals.demand());
-        let origins: Vec<&Place> = demand.origins.iter().map(|it| &it.place).collect();
-        self.roads.navigator().late_trips(network, &origins, demand.exits().len())
+    /// The trips with too little road for their lane changes, for classes of the demand: those that it has all the
+    /// same, and those that it leaves out.
+    pub fn late_trips(&self) -> [Vec<LateTrip>; 2] {
+        let (navigator, demand) = (self.roads.navigator(), self.arrivals.demand());
+        let [mut driven, mut left_out] = [Vec::new(), Vec::new()];
+        for it in late_trips(self.roads.network(), navigator, demand) {
+            let source = &self.arrivals.sources()[it.origin];
+            let of_demand = demand.classes().iter().filter(|class| it.classes.has(*class));
+            let (yes, no): (Vec<Class>, Vec<Class>) =
+                of_demand.partition(|class| source.leads_to(it.destination, *class, navigator));
+            for (classes, list) in [(yes, &mut driven), (no, &mut left_out)] {
+                let classes: Classes = classes.into_iter().collect();
+                list.extend((!classes.is_empty()).then_some(LateTrip { classes, ..it }));
+            }
+        }
+        [driven, left_out]
     }
 
     /// The classes of the demand that start at an origin: those that may use one of its lanes, and reach a destination

@@ -9,7 +9,7 @@ use crate::junction::need::Survey;
 use crate::junction::reservations::Reservations;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::approach::lets_go;
+use crate::right_of_way::approach::{LONG, lets_go};
 use crate::right_of_way::may_pass::{Asking, PassHindrance, leader_of, may_pass};
 use crate::right_of_way::mergers::are_led_on;
 use crate::right_of_way::survey::{STANDS_BEFORE_A_ZONE, survey};
@@ -80,7 +80,8 @@ pub(crate) fn entry(
             Entry::Refused(PassHindrance::Others)
         }
         Ok(()) => {
-            let ahead = leader_of(scene, out).map(|it| Ahead { gap: it.gap - WAITS_BEFORE - length, ..it });
+            let first = leader_of(scene, out, length >= LONG);
+            let ahead = first.map(|it| Ahead { gap: it.gap - WAITS_BEFORE - length, ..it });
             let until = first_taken(scene, out).min(out.extent) - WAITS_BEFORE;
             Entry::Reserved { until, ahead }
         }

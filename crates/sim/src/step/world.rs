@@ -89,7 +89,7 @@ impl World {
             .map_err(|error| WorldError::Threads { threads, why: error.to_string() })?;
         Ok(World {
             junctions: JunctionState::new(roads.network(), traffic.clock()),
-            arrivals: Arrivals::new(&roads, demand.in_time(roads.network(), roads.navigator())),
+            arrivals: Arrivals::new(&roads, demand),
             work,
             log: Log::default(),
             commands: Commands::default(),

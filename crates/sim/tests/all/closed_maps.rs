@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use crate::roads::{Road, drivers, real};
 use laneweave_network::{ChainIndex, LaneletIndex, Network};
 use laneweave_sim::{
-    Assignment, Class, Demand, Destination, Event, Fleet, InnerPlace, Navigator, Place, Placement, Places,
-    Setup, VehicleId, World,
+    Assignment, Class, Command, Demand, Destination, Event, Fleet, InnerPlace, Navigator, Place, Placement,
+    Places, Setup, VehicleId, World, wait_cycle,
 };
 
 /// A ring road of 1,000 m with two lanelets per lane.
@@ -279,4 +279,27 @@ fn a_demand_loads_the_ways_between_its_places() {
     let parts = assignment.on(chain).iter();
     let metres: f64 = parts.map(|it| it.flow * (it.to.min(length) - it.from)).sum();
     assert!((metres / assignment.total - 0.5 * length).abs() < 1e-6, "{}", metres / assignment.total);
+}
+
+#[test]
+fn on_a_full_ring_each_waits_for_the_next_and_all_are_named() {
+    let network = ring(1);
+    let mut world = world(network.clone(), inner_places(&network), 0.0, 1);
+    let mut placed = Vec::new();
+    for (chain, index) in network.chains.iter().zip(0..) {
+        let room = (chain.length / 6.0) as u32;
+        for x in (1..=room).map(|it| chain.length - 6.0 * f64::from(room - it)) {
+            let (chain, destination) = (ChainIndex(index), None);
+            let car = Placement { chain, x, speed: 0.0, class: Class::Car, parameters: 1, destination };
+            placed.push(world.place(car).expect("there is room"));
+        }
+    }
+    let first = world.vehicle(placed[0]).expect("it is on the road").spot;
+    let mut circle = wait_cycle(&world, first);
+    circle.sort_unstable();
+    assert_eq!(circle, placed);
+    // With one vehicle less, the one behind the gap stands for nobody.
+    world.command(Command::Remove(placed[7])).expect("it is there");
+    let first = world.vehicle(placed[0]).expect("it is on the road").spot;
+    assert_eq!(wait_cycle(&world, first), Vec::<VehicleId>::new());
 }

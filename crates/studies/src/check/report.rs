@@ -7,7 +7,7 @@ use laneweave::sim::{Place, Places};
 use laneweave_maps::{BORDERS, Map, Problem, RuleKind, check};
 use laneweave_network::{ChainIndex, Classes, DrivingSide, Network, Position, Sign};
 use laneweave_scenario::scenario::driven;
-use laneweave_scenario::{Remark, late_trips, left_out, remarks};
+use laneweave_scenario::{Late, Remark, on_late_trips, remarks};
 use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
 use serde::Serialize;
 
@@ -45,9 +45,9 @@ pub struct Report {
     pub entrances: Vec<Opening>,
     /// Exits; none on a closed map.
     pub exits: Vec<Opening>,
-    /// Trips that have a route, but too little road for its lane changes, by the ids of their ends: the default demand
-    /// leaves them out.
-    pub late_trips: Vec<[i64; 2]>,
+    /// Trips with too little road for the lane changes of their route. The default demand leaves them out, unless no
+    /// other trip starts there.
+    pub late_trips: Vec<Late>,
     /// On a closed map, the lanelets along which trips start.
     pub inner_places: usize,
     /// Traffic lights.
@@ -109,9 +109,9 @@ impl Report {
         let Map { network, graph, rules, contents, problems, origin } = map;
         let Network { lanelets, chains, lane_drops, driving_side, .. } = network;
         let (driven, places) = driven(map);
-        let late_trips = late_trips(&driven, &places);
+        let late_trips = Late::between(&driven, &places);
         let mut remarks = remarks(map, &driven, &places, &[]);
-        remarks.extend(left_out(&late_trips));
+        remarks.extend(on_late_trips(&late_trips).into_iter().flatten());
         let Places { origins, destinations } = places;
         let gates = |places: &[Place]| places.iter().filter_map(opening).collect::<Vec<_>>();
         let (entrances, exits) = (gates(&origins), gates(&destinations));
@@ -146,7 +146,7 @@ impl Report {
             inner_places: origins.len() - entrances.len(),
             entrances,
             exits,
-            late_trips,
+            late_trips: late_trips.concat(),
             lights: lights(&driven),
             lane_drops: lane_drops
                 .iter()

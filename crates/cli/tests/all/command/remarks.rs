@@ -201,13 +201,16 @@ fn trips_with_too_little_road_for_their_lane_changes_are_left_out_and_driven_if_
     let folder = Folder::new();
     assert_eq!(folder.laneweave(&format!("generate {make} m.osm")).code(), 0);
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
-    assert_eq!(report["late_trips"], serde_json::json!([[52, 50]]));
+    assert_eq!(
+        report["late_trips"],
+        serde_json::json!([{"from": 52, "to": 50, "classes": ["car", "truck"]}])
+    );
     let trips = |run: &str| {
         let run = folder.laneweave(&format!("run {run} --duration 300 --record 0 --format csv"));
         assert_eq!(run.code(), 0, "{}", run.errors());
         let column = |rows: &str, name: &str| rows.split(',').position(|it| it == name).unwrap();
         let text = folder.read("out/trips.csv");
-        let [from, to] = ["entrance", "destination"].map(|it| column(text.lines().next().unwrap(), it));
+        let [from, to] = ["origin", "destination"].map(|it| column(text.lines().next().unwrap(), it));
         let trip = |row: &str| row.split(',').nth(from) == Some("52") && row.split(',').nth(to) == Some("50");
         (text.lines().filter(|it| trip(it)).count(), run.errors())
     };

@@ -1,0 +1,92 @@
+//! Trips with too little road for the lane changes of their route, in words.
+
+use laneweave_network::{Class, Classes, Network};
+use laneweave_sim::{LateTrip, Navigator, Place, Places, World};
+use serde::Serialize;
+
+use crate::remarks::{Remark, remark};
+use crate::scenario::Demand;
+
+/// A trip with too little road for its lane changes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Late {
+    /// The id of its entrance.
+    pub from: i64,
+    /// The id of its exit.
+    pub to: i64,
+    /// The classes of vehicles for which this is so.
+    pub classes: Vec<&'static str>,
+}
+
+impl Late {
+    /// Those of the usual classes between `places`: those that the default demand has, since no other trip starts
+    /// there, and those that it leaves out.
+    pub fn between(network: &Network, places: &Places) -> [Vec<Late>; 2] {
+        let Places { origins, destinations } = places;
+        let usual = Demand::default().classes();
+        let navigator = Navigator::towards_for(network, destinations, usual);
+        let late = navigator.late_trips(network, &origins.iter().collect::<Vec<_>>(), destinations.len());
+        [true, false].map(|has_no_others| {
+            let of_kind = late.iter().filter_map(|it| {
+                let is_of_kind = |class: &Class| it.without_others.has(*class) == has_no_others;
+                let classes = it.classes.iter().filter(|class| usual.has(*class)).filter(is_of_kind);
+                Late::of(classes.collect(), &origins[it.origin], &destinations[it.destination])
+            });
+            of_kind.collect()
+        })
+    }
+
+    /// A trip of some `classes` between these places, if there are any.
+    fn of(classes: Classes, from: &Place, to: &Place) -> Option<Late> {
+        let names = classes.iter().map(|class| class.body().name).collect();
+        (!classes.is_empty()).then(|| Late { from: from.id(), to: to.id(), classes: names })
+    }
+
+    /// Its name: with the classes, if it does not concern cars.
+    fn name(&self) -> String {
+        let Late { from, to, classes } = self;
+        let is_of_all = classes.contains(&Class::Car.body().name);
+        if is_of_all {
+            format!("{from} to {to}")
+        } else {
+            format!("{from} to {to} by {}", classes.join(" and "))
+        }
+    }
+}
+
+/// The remarks on trips with too little road: on those that the demand has, and on those that it leaves out.
+pub fn on_late_trips([driven, left_out]: &[Vec<Late>; 2]) -> [Option<Remark>; 2] {
+    let driven = too_little_road(driven).and_then(|it| {
+        let what = format!("{it}: the demand has them, and their drivers may miss a turn and hold others up");
+        remark(what, "leave them out of the demand, or let drivers change lanes on a longer stretch")
+    });
+    let left_out = too_little_road(left_out).and_then(|it| {
+        let what = format!("{it}: the demand has none of them where it does not name them");
+        let remedy =
+            "name them in demand.od to have them all the same, or let drivers change lanes on a longer stretch";
+        remark(what, remedy)
+    });
+    [driven, left_out]
+}
+
+/// The remarks on such trips of the demand of `world`.
+pub(crate) fn on_late_trips_of(world: &World) -> [Option<Remark>; 2] {
+    let demand = world.demand();
+    let named = world.late_trips().map(|trips| {
+        let late = |it: &LateTrip| {
+            Late::of(it.classes, &demand.origins[it.origin].place, &demand.destinations[it.destination])
+        };
+        trips.iter().filter_map(late).collect()
+    });
+    on_late_trips(&named)
+}
+
+/// What is wrong with `trips`, the first of which are named; `None` without trips.
+fn too_little_road(trips: &[Late]) -> Option<String> {
+    const SHOWN: usize = 5;
+    let first: Vec<String> = trips.iter().take(SHOWN).map(Late::name).collect();
+    let more = if trips.len() > SHOWN { ", …" } else { "" };
+    let plural = if trips.len() == 1 { "trip" } else { "trips" };
+    let named = || format!("{} {plural} ({}{more})", trips.len(), first.join(", "));
+    (!trips.is_empty()).then(|| format!("there is too little road for the lane changes of {}", named()))
+}
