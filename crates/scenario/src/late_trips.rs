@@ -1,7 +1,7 @@
 //! Trips with too little road for the lane changes of their route, in words.
 
 use laneweave_network::{Class, Classes, Network};
-use laneweave_sim::{LateTrip, Navigator, Place, Places, World};
+use laneweave_sim::{LateTrip, LateTrips, Navigator, Place, Places, World};
 use serde::Serialize;
 
 use crate::remarks::{Remark, remark};
@@ -19,21 +19,21 @@ pub struct Late {
 }
 
 impl Late {
-    /// Those of the usual classes between `places`: those that the default demand has, since no other trip starts
-    /// there, and those that it leaves out.
+    /// Those of the usual classes between `places`: those that the default demand has, since there are no others, and
+    /// those that it leaves out.
     pub fn between(network: &Network, places: &Places) -> [Vec<Late>; 2] {
         let Places { origins, destinations } = places;
         let usual = Demand::default().classes();
         let navigator = Navigator::towards_for(network, destinations, usual);
-        let late = navigator.late_trips(network, &origins.iter().collect::<Vec<_>>(), destinations.len());
-        [true, false].map(|has_no_others| {
-            let of_kind = late.iter().filter_map(|it| {
-                let is_of_kind = |class: &Class| it.without_others.has(*class) == has_no_others;
-                let classes = it.classes.iter().filter(|class| usual.has(*class)).filter(is_of_kind);
-                Late::of(classes.collect(), &origins[it.origin], &destinations[it.destination])
-            });
-            of_kind.collect()
-        })
+        let all: Vec<&Place> = origins.iter().collect();
+        let LateTrips { late, in_time } = navigator.late_trips(network, &all, destinations.len());
+        let of_usual = |classes: Classes| classes.iter().filter(|it| usual.has(*it)).collect::<Classes>();
+        let named = |it: &LateTrip| {
+            Late::of(of_usual(it.classes), &origins[it.origin], &destinations[it.destination])
+        };
+        let late: Vec<Late> = late.iter().filter_map(named).collect();
+        let has_others = in_time.into_iter().any(|it| !of_usual(it).is_empty());
+        if has_others { [Vec::new(), late] } else { [late, Vec::new()] }
     }
 
     /// A trip of some `classes` between these places, if there are any.

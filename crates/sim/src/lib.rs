@@ -49,7 +49,7 @@ pub use record::trip_log::TripRecord;
 pub use right_of_way::approach::STOPS_AT_YELLOW;
 pub use right_of_way::survey::{STANDS_BEFORE_A_LINE, STANDS_BEFORE_A_ZONE};
 pub use route::disutility::Disutility;
-pub use route::in_time::LateTrip;
+pub use route::in_time::{LateTrip, LateTrips};
 pub use route::navigate::Navigator;
 pub use route::place::{InnerPlace, Place};
 pub use route::waypoint::Waypoint;

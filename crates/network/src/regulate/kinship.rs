@@ -2,7 +2,7 @@
 
 use super::contact::{LONG_VEHICLE_WIDTH, LONGEST_VEHICLE};
 use super::fork::Fork;
-use crate::chain::{Chain, ChainIndex, Position};
+use crate::chain::{ChainIndex, Position};
 use crate::lanelet::Side;
 use crate::network::Network;
 
@@ -12,6 +12,9 @@ const NEAR: f64 = 40.0;
 const SAME: f64 = 4.0;
 /// Places of a path this close behind each other are no conflict, whatever the shape of the path [m].
 const BEHIND: f64 = 15.0;
+/// Before the place where a lane ends for long vehicles these need so much road to leave it [m], ours: two and a half of
+/// their lengths.
+const TO_LEAVE: f64 = 30.0;
 
 /// Paths lead in one direction if the cosine of the angle between their headings is at least this: 60°. Ours.
 const ONE_DIRECTION: f64 = 0.5;
@@ -59,8 +62,8 @@ impl<'a> Kinship<'a> {
     }
 
     /// Whether lanes may be changed between these stations of two chains, at one of which a lane that begins or ends
-    /// beside the other opens or narrows, and is narrower than a long vehicle somewhere along one, or is nearly at its
-    /// end.
+    /// beside the other opens or narrows, and is narrower than a long vehicle somewhere along one, or has to be left by
+    /// long vehicles.
     pub(super) fn is_left_beside(&self, [a, b]: [ChainIndex; 2], [at_a, at_b]: [f64; 2]) -> bool {
         let chain = |it: ChainIndex| self.network.chain(it);
         // Contacts are between the middles of vehicles.
@@ -72,8 +75,8 @@ impl<'a> Kinship<'a> {
             })
         };
         let is_partial = |it: ChainIndex, at: f64| {
-            let Chain { open: [_, [from, until]], length, .. } = *chain(it);
-            let is_end = chain(it).is_lane_drop() && at > length - BEHIND;
+            let [from, until] = chain(it).open[1];
+            let is_end = chain(it).is_lane_drop() && at > chain(it).driven_until(true) - TO_LEAVE;
             is_end || !(from + BEHIND..=until - BEHIND).contains(&at) && is_narrow(it, at)
         };
         let leads = |from: ChainIndex, at: f64, to: ChainIndex, at_there: f64| {

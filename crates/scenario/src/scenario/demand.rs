@@ -26,7 +26,7 @@ pub(super) enum Amount {
 }
 
 /// The demand at each of `places`, and the weights of the destinations. Where the scenario gives none, it is `amount`,
-/// or else the default one.
+/// or else the default one. Nobody starts at the origins with the numbers `avoided`, unless the scenario names them.
 ///
 /// # Errors
 /// If an entrance or exit does not exist, or a number is invalid.
@@ -36,7 +36,7 @@ pub(super) fn demand(
     network: &Network,
     places: Places,
     population: Vec<Share>,
-    amount: Option<&Amount>,
+    (amount, avoided): (Option<&Amount>, &[usize]),
 ) -> Result<Demand, Fault> {
     let wanted = &scenario.demand;
     let lanes: usize = places.origins.iter().map(|it| it.chains().len()).sum();
@@ -49,6 +49,7 @@ pub(super) fn demand(
     });
     check_rate(total, lanes, origin.place(&["demand", "vehicles_per_hour"]), "a demand")?;
     let mut demand = Demand::over(network, places, total, wanted.fleet(), population);
+    avoid(&mut demand, avoided, total);
     if let Some(Amount::Each(rates)) = amount {
         demand.origins.iter_mut().zip(rates).for_each(|(it, rate)| it.rate = Rate::constant(*rate));
     }
@@ -79,6 +80,16 @@ impl super::Demand {
     pub(crate) fn fleet(&self) -> Fleet {
         let super::Demand { trucks, buses, motorcycles, taxis, emergency, .. } = *self;
         Fleet { trucks, buses, motorcycles, taxis, emergency }
+    }
+}
+
+/// Moves the demand of the `avoided` origins to the others, so that it is `total` vehicles per hour.
+fn avoid(demand: &mut Demand, avoided: &[usize], total: f64) {
+    avoided.iter().for_each(|it| demand.origins[*it].rate = Rate::constant(0.0));
+    let left: f64 = demand.origins.iter().map(|it| it.rate.highest()).sum();
+    if left > 0.0 && !avoided.is_empty() {
+        let factor = Rate::constant(total / left);
+        demand.origins.iter_mut().for_each(|it| it.rate = it.rate.times(&factor));
     }
 }
 

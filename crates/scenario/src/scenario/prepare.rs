@@ -178,7 +178,7 @@ fn prepare_with(
     let made = MadeLights::of(scenario, &plans);
     let network = Arc::new(network.with_signals(&plans));
     check_places(scenario, &places)?;
-    let build = |network: &Arc<Network>, amount: Option<&Amount>| {
+    let build = |network: &Arc<Network>, amount: (Option<&Amount>, &[usize])| {
         let demand = demand(scenario, origin, network, places.clone(), shares.clone(), amount)?;
         let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
         World::new(Arc::clone(network), driver_parameters.clone(), demand, setup)

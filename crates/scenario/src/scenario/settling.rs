@@ -27,13 +27,17 @@ impl Settling<'_> {
     pub(super) fn settle(
         &self,
         network: &Arc<Network>,
-        build: impl Fn(&Arc<Network>, Option<&Amount>) -> Result<World, Fault>,
+        build: impl Fn(&Arc<Network>, (Option<&Amount>, &[usize])) -> Result<World, Fault>,
     ) -> Result<Settled, Fault> {
         let is_open = Basis::is_open(&self.scenario.demand);
         let is_estimated = is_open && !self.scenario.replay.is_asked();
         // The estimate depends on the shares of the demand, not on its amount: the smallest demand is enough.
         let smallest = is_open.then_some(Amount::Total(if is_estimated { 1.0 } else { 0.0 }));
-        let world = build(network, smallest.as_ref())?;
+        let mut world = build(network, (smallest.as_ref(), &[]))?;
+        let avoided = world.late_origins();
+        if !avoided.is_empty() {
+            world = build(network, (smallest.as_ref(), &avoided))?;
+        }
         if !is_estimated && !self.made.are_on(network) {
             return Ok(Settled { world, basis: Basis::Given, capacity: None });
         }
@@ -53,7 +57,7 @@ impl Settling<'_> {
         };
         let (rates, capacity) = usual.unzip();
         let amount = if is_estimated { rates.map(Amount::Each) } else { smallest };
-        Ok(Settled { world: build(&network, amount.as_ref())?, basis, capacity })
+        Ok(Settled { world: build(&network, (amount.as_ref(), &avoided))?, basis, capacity })
     }
 
     /// The default demand of each origin of `world` on `network` [veh/h], and the estimated capacity for such a demand;
@@ -71,7 +75,8 @@ impl Settling<'_> {
         let capacity = Growth::new(network, assign, inner_places, self.queues).capacity(&borne);
         let demand = (USUAL_SHARE * capacity.veh_h).min(FULLEST * capacity.queues_from_veh_h);
         let share = demand / borne.iter().sum::<f64>();
-        Some((borne.into_iter().map(|it| (share * it).round().max(1.0)).collect(), capacity))
+        let whole = |it: f64| if it > 0.0 { (share * it).round().max(1.0) } else { 0.0 };
+        Some((borne.into_iter().map(whole).collect(), capacity))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::demand::Demand;
 use crate::demand::destinations::late_trips;
 use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::source::{Arrival, Coming, Queue, Source};
-use crate::route::in_time::LateTrip;
+use crate::route::in_time::{LateTrip, LateTrips};
 use crate::route::roads::Roads;
 use crate::state::clock::Clock;
 use crate::state::externals::FIRST_INSERTED;
@@ -19,6 +19,7 @@ use crate::view::scene::Scene;
 /// The demand, and the queues of the vehicles that have arrived.
 pub(crate) struct Arrivals {
     demand: Demand,
+    late: LateTrips,
     backlog: Backlog,
 }
 
@@ -54,8 +55,8 @@ impl Arrivals {
     pub(crate) fn new(roads: &Roads, mut demand: Demand) -> Arrivals {
         let (network, navigator) = (roads.network(), roads.navigator());
         let late = late_trips(network, navigator, &demand);
-        let sources = Source::all(network, navigator, &demand, &late, &roads.random());
-        for LateTrip { origin, destination, .. } in late {
+        let sources = Source::all(network, navigator, &demand, &late.late, &roads.random());
+        for &LateTrip { origin, destination, .. } in &late.late {
             if !sources[origin].leads_to(destination, Class::Car, navigator) {
                 demand.origins[origin].weights[destination] = 0.0;
             }
@@ -65,12 +66,17 @@ impl Arrivals {
         let lines = vec![LineCount::default(); demand.lines.len()];
         let (next_id, next_inserted) = (0, FIRST_INSERTED);
         let backlog = Backlog { sources, perimeter, weights, lines, next_id, next_inserted };
-        Arrivals { demand, backlog }
+        Arrivals { demand, late, backlog }
     }
 
     /// The demand: which vehicles arrive, from where and to where.
     pub(crate) fn demand(&self) -> &Demand {
         &self.demand
+    }
+
+    /// The trips with too little road for their lane changes.
+    pub(crate) fn late(&self) -> &LateTrips {
+        &self.late
     }
 
     /// The origins of the demand.
@@ -134,7 +140,8 @@ impl Arrivals {
 
     /// The vehicles that arrive at an origin by `time` [s] join its queues.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
-        let Arrivals { demand, backlog: Backlog { sources, perimeter, weights, lines, next_id, .. } } = self;
+        let Arrivals { demand, backlog: Backlog { sources, perimeter, weights, lines, next_id, .. }, .. } =
+            self;
         let coming = Coming { demand, weights, perimeter: perimeter.as_ref() };
         sources[origin].arrive(scene, coming, random, time, next_id);
         for ((line, count), number) in demand.lines.iter().zip(lines).zip(0..) {

@@ -136,7 +136,7 @@ impl Source {
             let lanes = queues(network, &origin.place);
             let count = if demand.headways == Headways::Exponential { 1 } else { origin.lanes(network) };
             let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
-            let destinations = destinations(network, navigator, (origin, number as usize), late);
+            let destinations = destinations(network, navigator, (demand, number as usize), late);
             let leads = |class: &Class| !destinations[navigator.restriction_of(*class)].is_empty();
             let may_start =
                 |class: &Class| lanes.iter().any(|it| network.chain(it.chain).classes.has(*class));

@@ -17,8 +17,15 @@ pub struct LateTrip {
     pub destination: usize,
     /// The classes for which this is so.
     pub classes: Classes,
-    /// Those of them for which this is so of all trips from this origin.
-    pub without_others: Classes,
+}
+
+/// The trips with too little road for their lane changes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LateTrips {
+    /// These trips, by their origins and destinations.
+    pub late: Vec<LateTrip>,
+    /// For each origin the classes that have other trips.
+    pub in_time: Vec<Classes>,
 }
 
 /// A lane change at the speed limit takes at least this time [s], ours: of lone drivers who have less for each of
@@ -28,10 +35,10 @@ const TIME: f64 = 3.0;
 const BRAKING: f64 = 2.0;
 
 impl Navigator {
-    /// The trips from `origins` to the first `destinations` with too little road for their lane changes, in order.
-    pub fn late_trips(&self, network: &Network, origins: &[&Place], destinations: usize) -> Vec<LateTrip> {
+    /// The trips from `origins` to the first `destinations` with too little road for their lane changes.
+    pub fn late_trips(&self, network: &Network, origins: &[&Place], destinations: usize) -> LateTrips {
         let mut late = Vec::new();
-        let mut has_others = vec![Classes::NONE; origins.len()];
+        let mut in_time = vec![Classes::NONE; origins.len()];
         for destination in 0..destinations {
             let tables: Vec<u16> = self.restrictions().map(|first| first + destination as u16).collect();
             let latest: Vec<Vec<f64>> =
@@ -42,20 +49,14 @@ impl Navigator {
                 let is_in_time =
                     |it: &Class| self.is_in_time(network, place, tables[number(it)], &latest[number(it)]);
                 let led = Class::ALL.into_iter().filter(leads);
-                let (in_time, classes): (Vec<Class>, Vec<Class>) = led.partition(is_in_time);
-                has_others[origin] = has_others[origin].and(in_time.into_iter().collect());
-                if !classes.is_empty() {
-                    let classes = classes.into_iter().collect();
-                    late.push(LateTrip { origin, destination, classes, without_others: Classes::NONE });
-                }
+                let (early, others): (Vec<Class>, Vec<Class>) = led.partition(is_in_time);
+                in_time[origin] = in_time[origin].and(early.into_iter().collect());
+                let classes: Classes = others.into_iter().collect();
+                late.extend((!classes.is_empty()).then_some(LateTrip { origin, destination, classes }));
             }
         }
-        for it in &mut late {
-            let has_no_others = |class: &Class| !has_others[it.origin].has(*class);
-            it.without_others = it.classes.iter().filter(has_no_others).collect();
-        }
         late.sort_unstable_by_key(|it| (it.origin, it.destination));
-        late
+        LateTrips { late, in_time }
     }
 
     /// Whether a driver who uses `table` makes its changes from some lane at `place`, also over the end of the lane.
@@ -162,11 +163,11 @@ mod tests {
             Navigator::new(&network).late_trips(&network, &origins.iter().collect::<Vec<_>>(), 2)
         });
         let [cars, trucks] = [&short, &long].map(|late| {
-            let of = |class| late.iter().filter(|it| it.classes.has(class)).count();
+            let of = |class| late.late.iter().filter(|it| it.classes.has(class)).count();
             [Class::Car, Class::Truck].map(of)
         });
         // A truck has the table of a car here, as nobody may drive elsewhere than others.
         assert_eq!((cars, trucks), ([2, 2], [0, 0]));
-        assert!(short.iter().all(|it| it.without_others.is_empty()), "there is another exit: {short:?}");
+        assert_eq!(short.in_time, [Classes::ALL; 2], "each has its own exit");
     }
 }

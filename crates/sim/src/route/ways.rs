@@ -273,13 +273,21 @@ impl Search {
         search
     }
 
-    /// Replaces the waypoint of a chain if `waypoint` is better.
+    /// Replaces the waypoint of a chain if `waypoint` is better, and does not lead back to this chain: a change past a
+    /// jam counts as a gain of time, and so would each round of a circle over it.
     fn offer(&mut self, network: &Network, to: ChainIndex, waypoint: Waypoint) {
         let new = rank(network, &waypoint);
-        if new < self.ranks[to.at()] && !self.is_settled[to.at()] {
+        let is_better = new < self.ranks[to.at()] && !self.is_settled[to.at()];
+        if is_better && (waypoint.via == to || !self.leads_to(to, waypoint.via)) {
             (self.table[to.at()], self.ranks[to.at()]) = (waypoint, new);
             self.open.push((Reverse(new), to));
         }
+    }
+
+    /// Whether the route from `from` leads over `chain`.
+    fn leads_to(&self, chain: ChainIndex, from: ChainIndex) -> bool {
+        let next = |at: &ChainIndex| Some(self.table[at.at()].via).filter(|it| it != at);
+        std::iter::successors(Some(from), next).any(|it| it == chain)
     }
 
     /// Reopens all chains that have a route. Their routes stay as they are.
@@ -298,7 +306,6 @@ impl Search {
             if ranked != self.ranks[index.at()] {
                 continue;
             }
-            let ahead = changed_to(&self.table, index);
             let previous = network.chain(index).previous.iter();
             for back in previous.filter(|back| planner.may_follow(**back, index)) {
                 let waypoint = planner.before(*back, index, &here);
@@ -307,9 +314,6 @@ impl Search {
             }
             for stretches in into[index.at()].chunk_by(|a, b| a.0 == b.0) {
                 let from = stretches[0].0;
-                if ahead.contains(&from) {
-                    continue;
-                }
                 // All stretches lead to the same chain. The last usable one is the last chance.
                 let chain = network.chain(from);
                 let last = stretches.iter().rev().find_map(|(_, side, number)| {
@@ -327,16 +331,6 @@ impl Search {
         }
         are_short
     }
-}
-
-/// The chains to which a driver changes from `chain`, one after the other. No driver changes back to one of these to
-/// overtake a jam.
-fn changed_to(table: &[Waypoint], chain: ChainIndex) -> Vec<ChainIndex> {
-    let next = |at: &ChainIndex| {
-        let Waypoint { changes, via, .. } = table[at.at()];
-        (changes > table[via.at()].changes).then_some(via)
-    };
-    std::iter::successors(next(&chain), next).collect()
 }
 
 /// The chains of `table` that have a route, each after the next chain of its route.

@@ -9,7 +9,6 @@ use xxhash_rust::xxh3::Xxh3;
 use crate::demand::Demand;
 use crate::demand::arrivals::{Arrivals, LineCount};
 use crate::demand::assignment::{Assignment, Thinning};
-use crate::demand::destinations::late_trips;
 use crate::demand::error::WorldError;
 use crate::demand::line::{Line, LineStop};
 use crate::driver::intention::{Intention, intention};
@@ -19,7 +18,7 @@ use crate::record::counts::Counts;
 use crate::record::events::Event;
 use crate::record::lanelet_aggregates::LaneletAggregate;
 use crate::record::trip_log::TripRecord;
-use crate::route::in_time::LateTrip;
+use crate::route::in_time::{LateTrip, LateTrips};
 use crate::route::place::{InnerPlace, Place};
 use crate::state::clock::Clock;
 use crate::state::command::Commanded;
@@ -126,17 +125,30 @@ impl World {
     pub fn late_trips(&self) -> [Vec<LateTrip>; 2] {
         let (navigator, demand) = (self.roads.navigator(), self.arrivals.demand());
         let [mut driven, mut left_out] = [Vec::new(), Vec::new()];
-        for it in late_trips(self.roads.network(), navigator, demand) {
+        for it in &self.arrivals.late().late {
             let source = &self.arrivals.sources()[it.origin];
+            let has_any = demand.origins[it.origin].rate.highest() > 0.0;
             let of_demand = demand.classes().iter().filter(|class| it.classes.has(*class));
             let (yes, no): (Vec<Class>, Vec<Class>) =
-                of_demand.partition(|class| source.leads_to(it.destination, *class, navigator));
+                of_demand.partition(|class| has_any && source.leads_to(it.destination, *class, navigator));
             for (classes, list) in [(yes, &mut driven), (no, &mut left_out)] {
                 let classes: Classes = classes.into_iter().collect();
-                list.extend((!classes.is_empty()).then_some(LateTrip { classes, ..it }));
+                list.extend((!classes.is_empty()).then_some(LateTrip { classes, ..*it }));
             }
         }
         [driven, left_out]
+    }
+
+    /// The origins from which nobody of the demand has a trip with road enough for its lane changes, though it has late
+    /// ones. None, if that is so of all origins.
+    pub fn late_origins(&self) -> Vec<usize> {
+        let LateTrips { late, in_time } = self.arrivals.late();
+        let classes = self.arrivals.demand().classes();
+        let is_left_early = |it: &usize| in_time[*it].iter().any(|class| classes.has(class));
+        let mut origins: Vec<usize> =
+            late.iter().map(|it| it.origin).filter(|it| !is_left_early(it)).collect();
+        origins.dedup();
+        if (0..in_time.len()).any(|it| is_left_early(&it)) { origins } else { Vec::new() }
     }
 
     /// The classes of the demand that start at an origin: those that may use one of its lanes, and reach a destination

@@ -298,8 +298,11 @@ fn on_a_full_ring_each_waits_for_the_next_and_all_are_named() {
     let mut circle = wait_cycle(&world, first);
     circle.sort_unstable();
     assert_eq!(circle, placed);
-    // With one vehicle less, the one behind the gap stands for nobody.
-    world.command(Command::Remove(placed[7])).expect("it is there");
+    // Behind a gap of 37.5 m, the next one waits for nobody, and drives off.
+    for removed in &placed[7..13] {
+        world.command(Command::Remove(*removed)).expect("it is there");
+    }
+    world.step();
     let first = world.vehicle(placed[0]).expect("it is on the road").spot;
     assert_eq!(wait_cycle(&world, first), Vec::<VehicleId>::new());
 }

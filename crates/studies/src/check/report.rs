@@ -45,8 +45,8 @@ pub struct Report {
     pub entrances: Vec<Opening>,
     /// Exits; none on a closed map.
     pub exits: Vec<Opening>,
-    /// Trips with too little road for the lane changes of their route. The default demand leaves them out, unless no
-    /// other trip starts there.
+    /// Trips with too little road for the lane changes of their route. The default demand leaves them out, unless
+    /// there are no others.
     pub late_trips: Vec<Late>,
     /// On a closed map, the lanelets along which trips start.
     pub inner_places: usize,

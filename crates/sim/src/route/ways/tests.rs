@@ -116,6 +116,46 @@ fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
     }
 }
 
+/// A road of 1,000 m, and on its right one of 300 m that forks: one branch leads back beside the long road for 300 m,
+/// the other leaves the map.
+fn a_way_around() -> Network {
+    let beside = |it: Lanelet, left, right| Lanelet { left, right, ..it };
+    let index = |it| Some(LaneletIndex(it));
+    let all = vec![
+        beside(lanelet(1, [0.0, 300.0], &[1]), None, index(3)),
+        lanelet(2, [300.0, 600.0], &[2]),
+        lanelet(3, [600.0, 1000.0], &[]),
+        lanelet(4, [0.0, 300.0], &[4, 5]),
+        beside(lanelet(5, [300.0, 600.0], &[]), index(1), None),
+        lanelet(6, [300.0, 500.0], &[]),
+    ];
+    Network::new(all, DrivingSide::Right).unwrap()
+}
+
+#[test]
+fn no_route_leads_around_a_jam_again_and_again() {
+    let network = a_way_around();
+    let into = beside_into(&network);
+    let restrictions = ClassRestrictions::default();
+    let [long, side, branch] = [1, 4, 5].map(|id| chain(&network, id));
+    let exit = network.exits.iter().find(|it| it.chains.contains(&long)).unwrap();
+    for jam in [30.0, 900.0] {
+        let mut links = Links::of(&network);
+        let chains = (0..network.chains.len() as u32).map(ChainIndex);
+        links.take(chains.map(|it| if it == long { jam } else { 30.0 }));
+        let planner = Planner {
+            network: &network,
+            into: &into,
+            links: &links,
+            restrictions: &restrictions,
+            restriction: 0,
+        };
+        let table = planner.plan(&Place::Gate(exit.clone()));
+        let ways = [long, side, branch].map(|it| (table[it.at()].changes, table[it.at()].via));
+        assert_eq!(ways, [(0, long), (1, branch), (1, long)], "{jam}");
+    }
+}
+
 #[test]
 fn a_change_counts_as_a_detour_the_more_the_less_road_there_is_for_it() {
     let counted = [0.0, 10.0, 30.0, 40.0, 90.0].map(Planner::missed_turn_penalty);
