@@ -163,3 +163,13 @@ fn who_stops_at_a_red_light_stands_in_nobodys_way() {
 fn who_waits_beside_a_stream_in_a_narrow_bend_waits_for_nobody_that_it_does_not_touch() {
     drive_at(10_173, 1.5, 900);
 }
+
+#[test]
+fn long_vehicles_leave_a_lane_that_ends_in_a_bend() {
+    drive_randomly(12_036, 900);
+}
+
+#[test]
+fn who_parts_from_the_road_behind_a_junction_may_have_to_stand_before_that() {
+    drive_randomly(14_005, 900);
+}

@@ -29,20 +29,23 @@ pub(crate) struct Beyond {
     pub(crate) arrival: f64,
 }
 
-/// Storage space from the end of the zones [m]. It reaches to the limit, or to the place where the last vehicle
-/// beyond the zones will be. There is none if a vehicle ahead is still within the zones and has no reservation that
-/// leads it out of them or off the route.
+/// Storage space from the end of the zones [m]. It reaches to the limit, to the fork where a vehicle ahead will part,
+/// or to the place where the last vehicle beyond the zones will be. There is none if a vehicle ahead is still within
+/// the zones and has no reservation that leads it out of them or off the route.
 pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     const NONE: f64 = f64::NEG_INFINITY;
-    let Beyond { section, stop, clear, limit, arrival } = beyond;
+    let Beyond { section, stop, clear, mut limit, arrival } = beyond;
     let reach = clear + SPACE_SIGHT;
     let mut first = from.ahead;
     let mut taken = scene.reservations.kept_on(section);
     let mut end = f64::INFINITY;
     for leg in scene.walk(from).within(reach) {
         let Leg { chain, start: base, .. } = leg;
-        if base < clear && scene.waits_beside_in_fork(leg, from).is_some() {
-            return NONE;
+        if let Some(rear) = scene.waits_beside_in_fork(leg, from) {
+            if base < clear {
+                return NONE;
+            }
+            end = end.min(base + rear);
         }
         let lane = &scene.lanes[chain.at()];
         for (motion, index) in lane.motions()[first..].iter().zip(first..) {
@@ -54,6 +57,8 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
                 return end.min(limit.min(reach) - taken) - clear;
             }
             let spot = Spot { chain, index };
+            // One that will part may have to stand behind others on its own way.
+            limit = limit.min(fork(scene, from, spot, base, limit.min(reach)).max(clear));
             let reservation = scene.reservations.of(lane.lane_change_states()[index].reservation, motion.id);
             // Behind a vehicle that stops for a light at the same place, it stops before all zones.
             let after = stop + BEFORE_A_ZONE + ROUNDING - base - motion.x;
@@ -80,6 +85,21 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
         first = 0;
     }
     end.min(limit.min(reach) - taken) - clear
+}
+
+/// Where the routes of the vehicle at `spot`, whose chain begins `base` ahead, and of the vehicle at `from` part, beyond
+/// the end of that chain [m]; infinite if they do not within `until`.
+fn fork(scene: &Scene, from: Viewpoint, spot: Spot, base: f64, until: f64) -> f64 {
+    let theirs = scene.driver(spot).goal.destination();
+    let (mut chain, mut end) = (spot.chain, base + scene.network.chain(spot.chain).length);
+    while end < until && theirs != from.destination {
+        let Some(next) = scene.next(from.destination, chain) else { break };
+        if scene.next(theirs, chain).is_some_and(|it| it != next) {
+            return end;
+        }
+        (chain, end) = (next, end + scene.network.chain(next).length);
+    }
+    f64::INFINITY
 }
 
 /// Whether the vehicle at `spot` moves up as the vehicles before it do. It does if it follows the same route as the
