@@ -211,24 +211,37 @@ fn a_chance_per_second_of_a_hundredth_is_one_per_tenth_of_a_second_of_a_thousand
 }
 
 #[test]
-fn v39_times_to_a_change_are_geometric_whatever_the_step() {
-    for p in [0.01, 0.010986942630593183, 0.002] {
-        for dt in [0.1_f64, 0.5, 1.0] {
-            let p_dt = at_least_once_in(dt, p);
-            let steps_per_epoch = (1.0 / dt).round() as i32;
-            for epochs in [1, 10, 300] {
-                let without = (1.0 - p_dt).powi(steps_per_epoch * epochs);
-                assert_near(without, (1.0 - p).powi(epochs), 1e-12);
-            }
-            // The mean time is the integral of the chance that nothing happened yet.
-            let (mut mean, mut without) = (0.0, 1.0);
-            while without > 1e-9 {
-                mean += without * dt;
-                without *= 1.0 - p_dt;
-            }
-            assert_near(mean, 1.0 / p, 0.03 / p);
+fn the_chance_of_an_epoch_does_not_depend_on_how_it_is_divided() {
+    for p in [0.01_f64, 0.3, 0.99] {
+        for parts in [2, 7, 10] {
+            let without = 1.0 - at_least_once_in(1.0 / f64::from(parts), p);
+            assert_near(without.powi(parts), 1.0 - p, 1e-12);
         }
     }
+}
+
+#[test]
+fn the_gain_below_which_no_desire_comes_is_neither_too_high_nor_far_too_low() {
+    let (theta, sigma, ln_2) = (0.1, 0.02, std::f64::consts::LN_2);
+    let model = LaneChangeModel::Mcdm(logit(theta, sigma));
+    // 2⁻¹⁰, divided among two sides: θ − 11 σ ln 2.
+    assert_near(model.reach(1.0, (-10.0_f64).exp2()), theta - 11.0 * sigma * ln_2, 1e-12);
+    for epochs in [0.1, 1.0, 3.0, 20.0] {
+        for draw in [0.9, 0.6, 0.03, 0.0011, 1e-6, 3e-12] {
+            let chance = |gain| {
+                let chances = model.choose([Some(&side(gain, theta)); 2]);
+                chances.map(|it| at_least_once_in(epochs, it)).iter().sum::<f64>()
+            };
+            let reach = model.reach(epochs, draw);
+            assert!(chance(reach) <= draw, "{epochs} epochs, {draw}: {}", chance(reach));
+            // The bound is a power of two, and nearly exact where the chance is small.
+            let is_exact = epochs >= 1.0 && draw < 0.01;
+            assert!(!is_exact || chance(reach + 1.1 * sigma * ln_2) > draw, "{epochs} epochs, {draw}");
+        }
+    }
+    assert_eq!(model.reach(1.0, 0.0), f64::NEG_INFINITY);
+    let exact = LaneChangeModel::Mcdm(Mcdm { rule: Rule::Threshold, ..logit(theta, sigma) });
+    assert_eq!(exact.reach(1.0, 0.5), theta);
 }
 
 #[test]
