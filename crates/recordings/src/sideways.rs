@@ -194,3 +194,19 @@ fn width(matched: &Matched<'_>, change: &LaneChange) -> f64 {
         _ => lanelets[change.from.at()].width(0.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scaled_time_runs_evenly_from_sight_to_sight_and_like_time_before_and_after() {
+        let sight = |time, paced| Sight { time, paced, aside: 0.0 };
+        // Half as fast in the second second.
+        let seen = vec![sight(0.0, 0.0), sight(1.0, 1.0), sight(2.0, 1.5)];
+        let way = Way { crossing: 0.0, seen, width: 3.5 };
+        for (time, paced) in [(-0.5, -0.5), (0.25, 0.25), (1.0, 1.0), (1.5, 1.25), (2.0, 1.5), (3.0, 2.5)] {
+            assert_eq!((way.paced(time), way.time(paced)), (paced, time));
+        }
+    }
+}

@@ -102,6 +102,18 @@ fn another_vehicle_with_a_known_id_gets_a_new_one() {
 }
 
 #[test]
+fn who_was_out_of_sight_is_the_same_if_it_is_no_farther_off_than_a_usual_acceleration_explains() {
+    // Within 1 m and 3/8 m/s² t²: 1.41 m after 1.04 s.
+    for (off, renamed) in [(1.3, 0), (1.5, 1)] {
+        let mut parts = cut(&traffic(0.04, 0.0), 400, 0, true);
+        let track = &mut parts[1].tracks[0];
+        track.states.drain(..25);
+        track.states.iter_mut().for_each(|it| it.y += off);
+        assert_eq!(join(parts).expect("the others go on").renamed, renamed, "{off} m");
+    }
+}
+
+#[test]
 fn a_vehicle_that_is_seen_once_after_a_cut_does_not_move_the_frames() {
     let whole = traffic(0.04, 0.0);
     let joined = join(cut(&whole, 177, 0, true)).expect("they continue one another");
