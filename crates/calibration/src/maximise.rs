@@ -109,6 +109,20 @@ mod tests {
     }
 
     #[test]
+    fn a_step_that_gains_next_to_nothing_of_what_it_promised_is_halved() {
+        let best = Maximum {
+            at: vec![0.0],
+            value: 0.0,
+            inverse: Matrix::from_diagonal(&[1.0]),
+            is_converged: false,
+        };
+        // It promises 100, and gains a hundredth of a thousandth of that; half of it gains a tenth.
+        let mut evaluate = |at: &[f64]| (if at[0] > 0.9 { 1e-3 } else { 10.0 }, vec![0.0]);
+        let (length, value, _) = along(&best, &[1.0], 100.0, &mut evaluate).expect("half of it gains");
+        assert_eq!((length, value), (0.5, 10.0));
+    }
+
+    #[test]
     fn the_inverse_becomes_that_of_the_hessian() {
         // −(x² + 2 y² + xy): the negative Hessian is [[2, 1], [1, 4]].
         let evaluate = |it: &[f64]| {

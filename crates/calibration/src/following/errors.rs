@@ -177,6 +177,18 @@ mod tests {
     }
 
     #[test]
+    fn a_kind_of_which_enough_was_seen_has_errors_of_its_own() {
+        let many: Vec<Off> = (0..ENOUGH).flat_map(|_| toy()).collect();
+        let doubled = |it: &Off| Off { kind: 0, errors: it.errors.iter().map(|it| 2.0 * it).collect() };
+        let all: Vec<Off> = many.iter().map(doubled).chain(many.clone()).collect();
+        let [errors, alone] = [&all, &many].map(|it| Errors::of(it, None).unwrap());
+        let of = |errors: &Errors, kind| errors.solved(kind, &[1.0; SIZE])[0];
+        assert_eq!(of(&errors, 2), of(&alone, 2));
+        // Twice the errors have four times the variance.
+        assert!((of(&errors, 2) / of(&errors, 0) - 4.0).abs() < 1e-3);
+    }
+
+    #[test]
     fn a_kind_of_which_little_was_seen_has_the_errors_of_all() {
         let errors = Errors::of(&toy(), None).unwrap();
         assert_eq!(errors.solved(0, &[1.0; SIZE]), errors.solved(2, &[1.0; SIZE]));

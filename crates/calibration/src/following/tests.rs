@@ -97,6 +97,10 @@ fn drivers_behind_steady_leaders_tell_neither_how_they_accelerate_nor_how_they_b
     let [time_gap, _, acceleration, deceleration] = &fit.numbers[..] else { panic!("four numbers") };
     assert!(!acceleration.is_identified && !deceleration.is_identified, "{:?}", fit.numbers);
     assert_eq!([acceleration.value, deceleration.value], [acceleration.prior, deceleration.prior]);
+    // All that is known is the prior, whose logarithms have the standard deviation .5.
+    for number in [acceleration, deceleration] {
+        assert!((number.log_error - 0.5).abs() < 0.02, "{number:?}");
+    }
     assert!((time_gap.estimate - TRUE.time_gap).abs() < 0.1, "{time_gap:?}");
 }
 

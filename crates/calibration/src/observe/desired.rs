@@ -274,7 +274,41 @@ fn posterior(shown: Option<&Shown>, distribution: (f64, f64)) -> DesiredSpeed {
 
 #[cfg(test)]
 mod tests {
+    use laneweave_models::follow::{FollowingModel, Idm};
+
     use super::*;
+
+    #[test]
+    fn who_speeds_up_on_a_free_road_wants_more_than_who_keeps_its_speed() {
+        const SPEED: f64 = 20.0;
+        let follow = FollowingModel::Idm(Idm { acceleration: 1.4, ..Idm::default() });
+        for acceleration in [-0.1, 0.0, 0.1, 0.25_f64] {
+            let pace = Pace::new(SPEED, SPEED);
+            let driver = Driver { pace, acceleration, follow: &follow, comfortable: 0.0, length: 4.5 };
+            let factor = desired_by(&driver, None, SPEED).expect("it shows");
+            // The acceleration is a (1 − (v/v₀)⁴).
+            let expected = (1.0 - acceleration / 1.4).powf(-0.25);
+            assert!((factor - expected).abs() < 1e-6, "{acceleration} m/s²: {factor} is not {expected}");
+        }
+    }
+
+    #[test]
+    fn many_free_seconds_show_more_than_one_and_none_show_nothing() {
+        let assert_shows = |logs: &[f64], mean: f64, error: f64| {
+            let (found, its_error) = mean_of(logs).expect("they show it");
+            assert!(
+                (found - mean).abs() < 1e-12 && (its_error - error).abs() < 1e-12,
+                "{found} ± {its_error}"
+            );
+        };
+        assert_eq!(mean_of(&[]), None);
+        // One second: ten elevenths of the usual variance.
+        assert_shows(&[0.1], 0.1, (10.0 / 11.0 * 0.03 * 0.03 + 0.005 * 0.005_f64).sqrt());
+        // A thousand are a hundred looks.
+        let logs: Vec<f64> = (0..1000).map(|it| if it % 2 == 0 { 0.05 } else { 0.15 }).collect();
+        let variance = (1000.0 * 0.05 * 0.05 + 10.0 * 0.03 * 0.03) / 1010.0;
+        assert_shows(&logs, 0.1, (variance / 100.0 + 0.005 * 0.005_f64).sqrt());
+    }
 
     #[test]
     fn a_free_driver_shows_its_desired_speed() {
