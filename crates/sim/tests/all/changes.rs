@@ -4,11 +4,11 @@ use crate::roads::{Road, drivers};
 use laneweave_generate::{Motorway, motorway as draw_motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{
-    Comfort, ConstantHazard, Courtesy, LaneChangeModel, Mcdm, Route, Rule, Safety, Speed, Urgency,
+    Comfort, ConstantHazard, Courtesy, Keeping, LaneChangeModel, Mcdm, Route, Rule, Safety, Speed, Urgency,
 };
 use laneweave_models::follow::{FollowingModel, Fvdm, Pace};
 use laneweave_models::{Manner, Reading};
-use laneweave_network::ChainIndex;
+use laneweave_network::{ChainIndex, LaneUse, Network};
 use laneweave_sim::{Class, Event, LaneChange, Phase, Placement, Setup, World};
 
 /// Length of a car [m].
@@ -133,56 +133,72 @@ fn v37_identical_drivers_in_equilibrium_on_equal_lanes_feel_no_desire() {
     }
 }
 
-#[test]
-fn v39_times_to_a_desire_of_constant_chance_are_geometric_whatever_the_step() {
-    const CARS: u32 = 10_000;
+/// The style with the wish for the slow side alone: beside a free slow lane G is `gain` for as long as it lasts.
+fn drawn_to_the_slow_side(style: Style, gain: f64, theta: f64, sigma: f64) -> Style {
+    let keeping = Keeping { weight: gain, ..Keeping::default() };
+    let bare = mcdm(&indifferent(style.clone()));
+    with_change(style, LaneChangeModel::Mcdm(Mcdm { keeping, theta, sigma, ..bare }))
+}
+
+/// Cars on the fast lane, each beside a free gap of the slow lane that law and `style` want it to take.
+fn beside_free_gaps(style: Style, cars: u32, step: f64) -> World {
     const SPACING: f64 = 80.0;
-    const HAZARD: f64 = 0.05;
+    const SPEED: f64 = 20.0;
+    let road = Road { lanes: 2, length: f64::from(cars) * SPACING + 4000.0, limit: SPEED, ..Road::default() };
+    let mut network = road.network();
+    network.law.lane_use = LaneUse::SlowSide;
+    let starts = chains_from(&network, ChainIndex(1));
+    let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
+    let setup = Setup { step, seed: 3, threads: 1 };
+    let mut world = World::new(network, vec![style], nobody, setup).expect("the set-up makes sense");
+    for number in 0..cars {
+        let x = f64::from(number) * SPACING + LENGTH;
+        let (chain, start) = *starts.iter().rev().find(|(_, start)| *start < x).expect("it is on the road");
+        let (class, destination) = (Class::Car, Some(0));
+        let car = Placement { chain, x: x - start, speed: SPEED, class, parameters: 0, destination };
+        world.place(car).expect("it fits on the road");
+    }
+    world
+}
+
+#[test]
+fn v39_times_to_a_change_for_a_constant_gain_are_geometric_whatever_the_step() {
+    const CARS: u32 = 5_000;
+    let (gain, theta, sigma) = (0.08, 0.11, 0.0125);
+    // In every epoch of 1 s.
+    let hazard = 1.0 / (1.0 + f64::exp((theta - gain) / sigma));
+    let style = drawn_to_the_slow_side(drivers::conservative(), gain, theta, sigma);
     // The step [s], and the epoch, which is a whole number of steps [s].
     for (step, epoch) in [(0.1, 1.0), (0.3, 0.9), (0.5, 1.0), (1.0, 1.0)] {
-        let road =
-            Road { lanes: 2, length: f64::from(CARS) * SPACING + 6000.0, limit: 20.0, ..Road::default() };
-        let network = road.network();
-        let starts: Vec<(ChainIndex, f64)> = chains_of_lane_0(&network);
-        let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
-        let setup = Setup { step, seed: 3, threads: 1 };
-        let style = coin(drivers::conservative(), HAZARD);
-        let mut world = World::new(network, vec![style], nobody, setup).unwrap();
-        for number in 0..CARS {
-            let x = f64::from(number) * SPACING + LENGTH;
-            let (chain, start) = *starts.iter().rev().find(|(_, start)| *start < x).unwrap();
-            let destination = Some(0);
-            let class = Class::Car;
-            world
-                .place(Placement { chain, x: x - start, speed: 20.0, class, parameters: 0, destination })
-                .expect("it fits on the road");
-        }
+        let mut world = beside_free_gaps(style.clone(), CARS, step);
         let steps_per_epoch = world.clock().steps(1.0);
         let mut epochs = vec![0_u32; CARS as usize];
-        for number in 0..(250.0 / step) as u32 {
+        // A driver who wants to change goes in the next step.
+        world.step();
+        for number in 0..(120.0 / step) as u32 {
             world.step();
-            let has_desire = |it: &laneweave_sim::Vehicle| it.driver.phase != Phase::Cruises;
-            for vehicle in world.vehicles().filter(has_desire) {
-                let first = &mut epochs[vehicle.id() as usize];
+            for change in world.vehicles().filter(|it| it.driver.phase == Phase::Changes) {
+                let first = &mut epochs[change.id() as usize];
                 *first = if *first == 0 { number / steps_per_epoch + 1 } else { *first };
             }
         }
         assert!(epochs.iter().all(|it| *it > 0));
         let mean = epoch * epochs.iter().sum::<u32>() as f64 / f64::from(CARS);
-        let expected = 1.0 / HAZARD;
-        assert!((mean - expected).abs() < 0.03 * expected, "step {step}: {mean} s");
-        for waited in [5, 20, 60] {
+        // The mean of a geometric time of whole epochs.
+        let expected = epoch / (1.0 - (1.0 - hazard).powf(epoch));
+        assert!((mean - expected).abs() < 0.03 * expected, "step {step}: {mean} s of {expected} s");
+        for waited in [3, 10, 30] {
             let share = epochs.iter().filter(|it| **it > waited).count() as f64 / f64::from(CARS);
-            let survival = (1.0 - HAZARD).powf(epoch * f64::from(waited));
+            let survival = (1.0 - hazard).powf(epoch * f64::from(waited));
             let error = (survival * (1.0 - survival) / f64::from(CARS)).sqrt();
             assert!((share - survival).abs() < 3.0 * error, "step {step}: {share} after {waited} epochs");
         }
     }
 }
 
-/// The chains of the slow lane, each with its start along the road [m].
-fn chains_of_lane_0(network: &laneweave_network::Network) -> Vec<(ChainIndex, f64)> {
-    let (mut chain, mut start, mut all) = (Some(ChainIndex(0)), 0.0, Vec::new());
+/// The chains of the lane that begins with the chain `first`, each with its start along the road [m].
+fn chains_from(network: &Network, first: ChainIndex) -> Vec<(ChainIndex, f64)> {
+    let (mut chain, mut start, mut all) = (Some(first), 0.0, Vec::new());
     while let Some(index) = chain {
         all.push((index, start));
         start += network.chain(index).length;
