@@ -2,7 +2,7 @@
 
 use laneweave_models::Style;
 use laneweave_models::yielding::Yielding;
-use laneweave_network::{ChainIndex, Network};
+use laneweave_network::{ChainIndex, Network, Reach};
 use laneweave_sim::{VehicleId, World};
 
 use crate::junctions::town::{Arm, Comer, assert_sound, empty, has_gone, lane_from, lane_to, put, run_until};
@@ -19,7 +19,7 @@ fn goes_before(lag: f64, critical_gap: f64) -> bool {
     let major = Style { speed_factor: 0.5, ..drivers::conservative() };
     let mut world = empty(network("priority.osm"), vec![minor, major]);
     let ways = [Arm::South, Arm::East].map(|it| way_across(world.network(), it));
-    let [of_minor, of_major] = place_of_crossing(world.network(), ways);
+    let [of_minor, of_major] = reaches(world.network(), ways).map(|it| it.start);
     let distance = CRUISE * lag - of_major;
     let near = Comer { from: Arm::South, to: Arm::North, distance: 2.0, speed: 0.0, parameters: 0 };
     let far = Comer { from: Arm::East, to: Arm::West, distance, speed: CRUISE, parameters: 1 };
@@ -43,19 +43,19 @@ fn goes_before(lag: f64, critical_gap: f64) -> bool {
 }
 
 /// The lane straight on across the junction from an arm.
-fn way_across(network: &Network, from: Arm) -> ChainIndex {
+pub(super) fn way_across(network: &Network, from: Arm) -> ChainIndex {
     let beyond = lane_to(network, from.turned(2));
     let ways = &network.chain(lane_from(network, from)).following;
     let mut across = ways.iter().filter(|it| network.chain(**it).following.contains(&beyond));
     *across.next().expect("a lane leads across")
 }
 
-/// Where the conflict of two lanes begins [m].
-fn place_of_crossing(network: &Network, ways: [ChainIndex; 2]) -> [f64; 2] {
+/// The conflict of two lanes, on either of them.
+pub(super) fn reaches(network: &Network, ways: [ChainIndex; 2]) -> [Reach; 2] {
     let on = |way: ChainIndex| network.junctions.on(way).crossings.iter();
     let crossing = on(ways[0]).find(|it| network.junctions.other_side(**it).chain == ways[1]);
     let crossing = *crossing.expect("they cross");
-    [network.junctions.reach(crossing), network.junctions.other_side(crossing)].map(|it| it.start)
+    [*network.junctions.reach(crossing), *network.junctions.other_side(crossing)]
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod flow;
 mod giving_way;
 mod guided;
 mod lights;
+mod minor_road;
 mod room;
 mod roundabouts;
 mod same_bits;
