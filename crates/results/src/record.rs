@@ -260,6 +260,14 @@ pub fn output_settings(scenario: &Scenario) -> Result<String, Fault> {
     Ok(format!("{:016x}", xxh3_64(toml.as_bytes())))
 }
 
+impl End {
+    /// Whether a run of `scenario` can have ended so: one that was interrupted is shorter.
+    fn is_of(&self, scenario: &Scenario) -> bool {
+        let times = [(self.duration_s, scenario.run.duration_s), (self.warmup_s, scenario.run.warmup_s)];
+        times.iter().all(|(time, most)| (0.0..=most + scenario.run.step_s).contains(time))
+    }
+}
+
 impl Record {
     /// The run with its results in `dir`.
     ///
@@ -298,6 +306,13 @@ impl Record {
                 record.scenario.map.display()
             );
             return Err(Fault::new(dir.display(), what, "run it again"));
+        }
+        if !record.end.is_of(&record.scenario) {
+            let End { duration_s, warmup_s, .. } = record.end;
+            let what = format!(
+                "{duration_s} s after {warmup_s} s of warm-up are more than the scenario of this run has: the file was changed"
+            );
+            return Err(Fault::new(summary.display(), what, "run it again"));
         }
         // All that was done to the run is in this table, also what a program did.
         let extension = Format::from(record.scenario.output.format).extension();

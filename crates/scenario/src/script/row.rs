@@ -26,7 +26,8 @@ const TOLERANCE: f64 = 1e-3;
 /// A command as texts.
 pub struct Written {
     time_s: f64,
-    target: String,
+    target: &'static str,
+    id: Option<i64>,
     act: String,
     values: String,
 }
@@ -35,20 +36,26 @@ impl Written {
     /// The command `it` of a run with steps of `step_s` [s].
     pub fn of(it: &Commanded, step_s: f64) -> Written {
         let target = it.vehicle.map(Target::Vehicle).or_else(|| it.command.target());
+        let (target, id) = target.as_ref().map_or(("", None), kind_and_id);
         let (act, values) = act_and_values(&it.command);
-        Written {
-            time_s: seconds(f64::from(it.step) * step_s),
-            target: target.map_or(String::new(), |it| it.to_string()),
-            act,
-            values,
-        }
+        Written { time_s: seconds(f64::from(it.step) * step_s), target, id, act, values }
     }
 
     /// Its cells under [`COMMAND_COLUMNS`].
     pub fn cells(&self) -> [Cell<'_>; COMMAND_COLUMNS.len()] {
-        let (target, id) = self.target.split_once(' ').unwrap_or((&self.target, ""));
-        let id: Option<i64> = id.parse().ok();
-        [self.time_s.into(), target.into(), id.into(), self.act.as_str().into(), self.values.as_str().into()]
+        let Written { time_s, target, id, act, values } = self;
+        [(*time_s).into(), (*target).into(), (*id).into(), act.as_str().into(), values.as_str().into()]
+    }
+}
+
+/// What the columns `target` and `id` say of what a command concerns. A style has no id: its name is in the values.
+fn kind_and_id(target: &Target) -> (&'static str, Option<i64>) {
+    match target {
+        Target::Lanelet(id) => ("lanelet", Some(*id)),
+        Target::Origin(id) => ("origin", Some(*id)),
+        Target::Light(id) | Target::Plan(id) => ("light", Some(*id)),
+        Target::Parameter(..) | Target::Style(_) => ("style", None),
+        Target::Vehicle(id) => ("vehicle", Some(i64::from(*id))),
     }
 }
 
@@ -148,8 +155,8 @@ impl Columns {
             wrong(format!("a time_s of {time:?}"), format!("give seconds from 0 to {LONGEST}"))
         })?;
         let command = command(cell(self.act).unwrap_or_default(), cell(self.values).unwrap_or("null"))?;
-        let target = command.target().map_or("vehicle".into(), |it| it.to_string());
-        let (kind, id) = target.split_once(' ').unwrap_or((&target, ""));
+        let target = command.target();
+        let (kind, id) = target.as_ref().map_or(("vehicle", None), kind_and_id);
         let given = self.target.and_then(cell).filter(|it| *it != kind);
         if let Some(given) = given {
             let what = format!("the target is {given:?}, but the values concern a {kind}");
@@ -157,7 +164,8 @@ impl Columns {
         }
         let given = self.id.and_then(cell);
         let inserts = if matches!(command, Command::Insert(_)) { given } else { None };
-        if let Some(given) = given.filter(|it| inserts.is_none() && *it != id) {
+        if let Some(given) = given.filter(|it| inserts.is_none() && !is_id(it, id)) {
+            let target = target.map_or_else(String::new, |it| it.to_string());
             let what = format!("the id is {given}, but the values concern {target}");
             return Err(wrong(what, "correct one of them, or leave the cell empty"));
         }
@@ -167,6 +175,11 @@ impl Columns {
         let step = first_step_from(time_s, dt);
         Ok(Row { step, number, inserts: inserts.transpose()?, command })
     }
+}
+
+/// Whether a cell holds this id.
+fn is_id(cell: &str, id: Option<i64>) -> bool {
+    id.is_some_and(|id| cell.trim() == id.to_string())
 }
 
 /// The command that does `act` with `values`, a text in JSON.

@@ -94,6 +94,14 @@ fn what_cannot_be_told_is_refused_with_a_remedy() {
     assert!(matches!(times[..], [.., from, until] if until > from), "{early}");
     assert!(refused("explain nowhere --vehicle 0").contains("no results of a run"));
     assert!(refused("explain out").contains("--vehicle"));
+    let summary = folder.read("out/summary.json");
+    for other in ["6000000.0", "-1.0", "1e300"] {
+        let other = summary.replace("\"duration_s\": 60.0", &format!("\"duration_s\": {other}"));
+        std::fs::write(folder.path().join("out/summary.json"), other).unwrap();
+        let longer = folder.laneweave("explain out --vehicle 0").errors();
+        assert!(longer.contains("summary.json: ") && longer.contains("the file was changed"), "{longer}");
+    }
+    std::fs::write(folder.path().join("out/summary.json"), summary).unwrap();
     let map = folder.read("own.osm").replacen("120", "110", 1);
     std::fs::write(folder.path().join("own.osm"), map).unwrap();
     let changed = refused("explain out --vehicle 0");

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use super::runs::{folder, refused, run, scenario, tables};
+use super::runs::{folder, refused, run, scenario, simulation, tables};
 
 const INSERT: &str =
     r#"{""lanelet"":5,""position_m"":60,""speed_mps"":20,""class"":""car"",""style"":""aggressive""}"#;
@@ -33,6 +33,18 @@ fn commands_can_be_written_by_hand_in_any_order() {
     // The first step from this time on.
     assert_eq!(of(1), ["10.0", "vehicle", id, "set_style"]);
     assert_eq!((of(2), rows[2][4]), (["20.0", "vehicle", id, "remove"], id));
+}
+
+#[test]
+fn an_offset_concerns_its_light() {
+    let mut own = scenario("town.osm", 500.0, 10.0);
+    let light = simulation(&own).lights().first().expect("a light").id;
+    let row = format!("2.0,light,{light},set_offset,\"{{\"\"light\"\":{light},\"\"offset_s\"\":12.5}}\"\n");
+    own.commands = Some(file("offset", &format!("time_s,target,id,act,values\n{row}")));
+    let dir = folder("offset-out");
+    assert_eq!(run(&own, &dir).commands_refused, 0);
+    let table = fs::read_to_string(dir.join("commands.csv")).expect("it is there");
+    assert_eq!(table.lines().nth(1), Some(row.trim_end()));
 }
 
 #[test]
