@@ -1,4 +1,4 @@
-"""What is mutated: for each command and each kind of its inputs at least one sound command line, and the file that changes."""
+"""What is mutated: for each command and each kind of its inputs at least one sound command line, and the file of it."""
 
 import gzip
 import re
@@ -36,6 +36,7 @@ TRACKS = {
 }
 # Way of a map: its first and last lanelet.
 ENDS = {"road.osm": "1 16", "crossing.osm": "21 21", "lights.osm": "1 14", "fork.xml": "1 2", "road.osm.gz": "1 16"}
+SHORT_REPLAY = "replay rec.csv --map road.osm --rollouts 1 --against null --reactive 0.5 --duration 5"
 MESSAGES = [
     '{"ready":0}', '{"play":10.0}', '{"play":null}', '{"pause":true}', '{"step":5}', '{"seek":2.0}', '{"select":["1"]}',
     '{"find":"1"}', '{"colour":"desire"}', '{"lanes":true}', '{"view":[0.0,-50.0,300.0,50.0]}', '{"twin":true}',
@@ -68,6 +69,8 @@ class Case:
     # The command serves a page until it is interrupted; these messages are changed and sent to it.
     serves: bool = False
     messages: list = field(default_factory=list)
+    # The folder of the run whose fingerprint is mended half of the time, as if it had been run like this.
+    mends: str | None = None
 
     @property
     def is_text(self):
@@ -109,7 +112,7 @@ def of_maps():
             ("fit", "fit {r} --map {m} --plan"),
         ]:
             yield name, kind + " of a recording", [Case(line.format(r=recording, m=maps[0]), maps[0])]
-    yield "explain", "map of a run", [Case("explain run --summary", "road.osm")]
+    yield "explain", "map of a run", [Case("explain run --summary", "road.osm", mends="run")]
 
 
 def of_recordings():
@@ -122,7 +125,7 @@ def of_recordings():
             ("render", "render {r} --map road.osm --every 10 --size 160x90"),
             ("view", "view {r} --map road.osm --no-browser"),
             ("view --export", "view {r} --map road.osm --export a.html --every 5"),
-            ("recording join", "recording join {r} {again} --to joined.csv"),
+            ("recording join", "recording join {again} {r} --to joined.csv"),
         ]:
             cases = []
             for it in tracks:
@@ -131,8 +134,9 @@ def of_recordings():
                 text = line.format(r=" ".join(words), again=words[0])
                 cases.append(Case(text, victim, plain, name == "view"))
             yield name, kind, cases
-    yield "recording join", "two of INTERACTION", [Case("recording join a.csv b.csv --to c.csv", it) for it in ("a.csv", "b.csv")]
-    yield "check", "two of INTERACTION", [Case("check a.csv b.csv --map road.osm", it) for it in ("a.csv", "b.csv")]
+    for name, line in [("recording join", "recording join a.csv b.csv --to c.csv"),
+                       ("check", "check a.csv b.csv --map road.osm")]:
+        yield name, "two of INTERACTION", [Case(line, it) for it in ("a.csv", "b.csv")]
     line = "reproduce C2 --quick --seeds 1 --site long.csv --map road.osm"
     yield "reproduce", "INTERACTION, Lanelet2", [Case(line, "long.csv"), Case(line, "road.osm")]
     for name, line in [
@@ -161,7 +165,7 @@ def of_scenarios():
         ("styles show", "styles show {}"),
         ("styles new", "styles new other --from {}"),
         ("fit", "fit rec.csv --map road.osm --plan --prior {}"),
-        ("replay", "replay rec.csv --map road.osm --rollouts 1 --against null --reactive 0.5 --duration 5 --style {}=1"),
+        ("replay", f"{SHORT_REPLAY} --style {{}}=1"),
     ]:
         # A fit begins at weights, which MOBIL has not.
         styles = ["own.toml", "fitted.toml"] + ["mobil.toml"] * (name != "fit")
@@ -192,7 +196,9 @@ def of_results():
     by_pair = {}
     for name, line in repeats:
         for victim, kind in inside:
-            case = Case(line.format(victim.split("/")[0]), victim, plain, name == "view")
+            folder = victim.split("/")[0]
+            case = Case(line.format(folder), victim, plain, name == "view",
+                        mends=folder if victim.endswith(".toml") else None)
             by_pair.setdefault((name, kind), []).append(case)
     for (name, kind), cases in by_pair.items():
         yield name, kind, cases
@@ -215,17 +221,19 @@ def of_options():
     ]
     yield "generate", "numbers", [Case(it, None) for it in lines]
     for name, line in [
-        ("run", "run road.osm --duration 10 --warmup 2 --step 0.1 --demand 900 --seed 3 --trucks 0.2 --record 1 --flows 5 "
-                "--checkpoint 5 --threads 1 --quiet"),
+        ("run", "run road.osm --duration 10 --warmup 2 --step 0.1 --demand 900 --seed 3 --trucks 0.2 --record 1 "
+                "--flows 5 --checkpoint 5 --threads 1 --quiet"),
         ("routes", "routes road.osm 1 16 --most 3 --longest 2"),
         ("compare", "compare road.osm --seeds 1 --demand 900 --duration 5 --warmup 1 --model mcdm"),
         ("render", "render run --every 10 --from 5 --until 20 --camera 100,-3,300 --size 160x90"),
         ("explain", "explain run --vehicle 3 --time 20"),
-        ("observe", "observe run --rate 5 --from 2 --until 20 --above 100,0 --view 300 --noise 0.1 --lost-every 10 --lost-for 1"),
+        ("observe", "observe run --rate 5 --from 2 --until 20 --above 100,0 --view 300 --noise 0.1 --lost-every 10 "
+                    "--lost-for 1"),
         ("branch", "branch run --at 5 --set style.speed.weight=2"),
-        ("replay", "replay rec.csv --map road.osm --rollouts 1 --against null --reactive-ids 1,2,3 --from 2 --duration 10 "
-                   "--record 1 --seed 1 --quiet"),
-        ("fit", "fit rec.csv --map road.osm --draws 2 --repetitions 1 --classes 1 --lead 1.5 --position-error 0.1 --seed 1"),
+        ("replay", "replay rec.csv --map road.osm --rollouts 1 --against null --reactive-ids 1,2,3 --from 2 "
+                   "--duration 10 --record 1 --seed 1 --quiet"),
+        ("fit", "fit rec.csv --map road.osm --draws 2 --repetitions 1 --classes 1 --lead 1.5 --position-error 0.1 "
+                "--seed 1"),
         ("check", "check crossing.osm --origin 49,8.4 --max-map-size 100MB"),
     ]:
         yield name, "numbers", [Case(line, None)]
@@ -245,7 +253,8 @@ def pairs():
 def changed_line(random, line):
     """The command line with odd numbers."""
     words = line.split()
-    numbers = [it for it, word in enumerate(words) if it > 1 and mutate.NUMBER.fullmatch(re.split("[,=]", word)[-1].encode())]
+    is_number = [mutate.NUMBER.fullmatch(re.split("[,=]", it)[-1].encode()) for it in words]
+    numbers = [it for it in range(2, len(words)) if is_number[it]]
     for it in random.sample(numbers, min(len(numbers), random.choice([1, 1, 2]))):
         words[it] = mutate.number(random, words[it].encode()).decode("utf-8", "replace") or "''"
     return " ".join(words)

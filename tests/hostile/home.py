@@ -1,4 +1,4 @@
-"""A folder with a small sound input of every kind, made by the program itself and from the seeds of the fuzz targets."""
+"""A folder with a small sound input of every kind, made by the program and from the seeds of the fuzz targets."""
 
 import csv
 import gzip
@@ -113,7 +113,8 @@ COMMANDS = [
 ]
 ROAD_COMMANDS = [
     (1.0, "lanelet", 5, "close_lanelet", '{"lanelet":5,"is_closed":true}'),
-    (2.0, "vehicle", 0, "insert", '{"lanelet":3,"position_m":30.0,"speed_mps":20.0,"class":"truck","style":"conservative"}'),
+    (2.0, "vehicle", 0, "insert",
+     '{"lanelet":3,"position_m":30.0,"speed_mps":20.0,"class":"truck","style":"conservative"}'),
     (4.0, "vehicle", 0, "set_style", '[0,"conservative"]'),
     (5.0, "vehicle", 0, "control", '[0,{"drive":{"longitudinal":"driver","lateral":{"change":"left"}}}]'),
     (8.0, "lanelet", 5, "close_lanelet", '{"lanelet":5,"is_closed":false}'),
@@ -202,7 +203,8 @@ def commonroad(home):
         obstacles += (
             f'<dynamicObstacle id="{70 + vehicle}"><type>car</type><shape><rectangle><length>4.5</length><width>1.8'
             "</width></rectangle></shape>" + state(states[0][0], 2.0, "initialState", vehicle) + "<trajectory>"
-            + "".join(state(step, 2.0 + run, "state", vehicle) for step, run in states[1:]) + "</trajectory></dynamicObstacle>\n")
+            + "".join(state(step, 2.0 + run, "state", vehicle) for step, run in states[1:])
+            + "</trajectory></dynamicObstacle>\n")
     fork = (home / "fork.xml").read_text()
     (home / "both.xml").write_text(fork.replace("</commonRoad>", obstacles + "</commonRoad>"))
 

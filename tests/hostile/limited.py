@@ -88,8 +88,9 @@ def talk(address, messages):
     at = urlsplit(address)
     with socket.create_connection((at.hostname, at.port), timeout=2) as link:
         key = base64.b64encode(os.urandom(16)).decode()
-        link.sendall((f"GET /live?{at.query} HTTP/1.1\r\nHost: {at.netloc}\r\nOrigin: http://{at.netloc}\r\nUpgrade: websocket"
-                      f"\r\nConnection: Upgrade\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+        asked = [f"GET /live?{at.query} HTTP/1.1", f"Host: {at.netloc}", f"Origin: http://{at.netloc}",
+                 "Upgrade: websocket", "Connection: Upgrade", f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", "", ""]
+        link.sendall("\r\n".join(asked).encode())
         answer = link.recv(4096)
         if b" 101 " not in answer:
             raise SystemExit(f"{address}: no WebSocket: {answer[:200]}")

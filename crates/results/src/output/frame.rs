@@ -30,7 +30,7 @@ pub(super) struct Seen {
     pub(super) motion: Kinematics,
     pub(super) chain: ChainIndex,
     pub(super) parameters: u32,
-    previous_lanes: PreviousLanes,
+    pub(super) previous_lanes: PreviousLanes,
     pub(super) class: Class,
     pub(super) phase: Phase,
 }
@@ -112,6 +112,11 @@ impl Frame {
         let begins = std::iter::once(0).chain(self.instants.iter().map(|(_, end)| *end));
         let places = self.instants.iter().zip(begins);
         places.map(|((step, end), begin)| (*step, &self.seen[begin..*end], &self.bodies[begin..*end]))
+    }
+
+    /// Up to which sample each instant goes.
+    pub(super) fn ends(&self) -> impl Iterator<Item = usize> {
+        self.instants.iter().map(|(_, end)| *end)
     }
 
     /// All samples, one instant after the other.

@@ -13,6 +13,7 @@ use super::batch::{Batch, BatchSender, Writer};
 use super::folder::Folder;
 use super::names::Names;
 use super::traffic::Traffic;
+use crate::folder::CHECKPOINT;
 use crate::outcome::Summary;
 use crate::pack::{pack, unpack};
 
@@ -54,7 +55,13 @@ impl Output for Lanelets {
     }
 
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
+        let lanelets = self.before.len();
         (self.until, self.past, self.interval, self.before) = unpack(saved)?;
+        let counted = [self.past.counts.len(), self.interval.counts.len(), self.before.len()];
+        if counted.iter().any(|it| *it != lanelets) {
+            let what = format!("it counts {counted:?} lanelets, but there are {lanelets}");
+            return Err(Fault::new(CHECKPOINT, what, "run again from the beginning, without --resume"));
+        }
         Ok(())
     }
 

@@ -97,8 +97,12 @@ fn batch(reader: &mut impl Read) -> io::Result<Batch> {
     if size > LONGEST {
         return Err(io::Error::other(format!("a batch of {size} bytes")));
     }
-    let mut bytes = vec![0; size as usize];
-    reader.read_exact(&mut bytes)?;
+    let mut bytes = Vec::new();
+    // A damaged size is not believed before so many bytes have come.
+    reader.take(size.into()).read_to_end(&mut bytes)?;
+    if bytes.len() < size as usize {
+        return Err(io::ErrorKind::UnexpectedEof.into());
+    }
     if xxh3_64(&bytes).to_le_bytes() != hash {
         return Err(io::Error::other("a batch is damaged"));
     }

@@ -21,6 +21,7 @@ mod outputs;
 #[cfg(feature = "reports")]
 mod report;
 mod samples;
+mod sound;
 mod sumo;
 mod traffic;
 mod trajectories;

@@ -44,6 +44,16 @@ impl Names {
         (index, &self.network.lanelets[index.at()], along)
     }
 
+    /// Whether there is such a place.
+    pub(super) fn has_place(&self, at: Position) -> bool {
+        at.chain.at() < self.network.chains.len() && at.x.is_finite()
+    }
+
+    /// Whether there is such a set of driver parameters.
+    pub(super) fn has_driver(&self, parameters: u32) -> bool {
+        (parameters as usize) < self.driver_parameters.len()
+    }
+
     /// The style of a set of driver parameters.
     pub(super) fn style(&self, parameters: u32) -> &str {
         &self.driver_parameters[parameters as usize].0

@@ -36,6 +36,7 @@ pub(super) struct WriterThreads {
     threads: Vec<JoinHandle<Result<Vec<PathBuf>, Fault>>>,
     /// The log of batches, if there is one.
     log: Option<PathBuf>,
+    names: Arc<Names>,
 }
 
 impl WriterThreads {
@@ -79,7 +80,7 @@ impl WriterThreads {
             })?);
         }
         let sender = next.ok_or_else(broke_off)?;
-        Ok((WriterThreads { sender, threads, log: log_path }, spares))
+        Ok((WriterThreads { sender, threads, log: log_path, names }, spares))
     }
 
     /// Number of threads that write.
@@ -114,7 +115,16 @@ impl Output for WriterThreads {
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
         let Some(log) = &self.log else { return Ok(()) };
         for batch in batches(log, unpack(saved)?)? {
-            self.sender.hand_over(batch?)?;
+            let batch = batch?;
+            if !batch.is_sound(&self.names) {
+                let what = "a batch is damaged: it names what this run has not";
+                return Err(Fault::new(
+                    log.display(),
+                    what,
+                    "run again from the beginning, without --resume",
+                ));
+            }
+            self.sender.hand_over(batch)?;
         }
         Ok(())
     }
