@@ -89,7 +89,8 @@ def talk(address, messages):
     with socket.create_connection((at.hostname, at.port), timeout=2) as link:
         key = base64.b64encode(os.urandom(16)).decode()
         asked = [f"GET /live?{at.query} HTTP/1.1", f"Host: {at.netloc}", f"Origin: http://{at.netloc}",
-                 "Upgrade: websocket", "Connection: Upgrade", f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", "", ""]
+                 "Upgrade: websocket", "Connection: Upgrade", f"Sec-WebSocket-Key: {key}",
+                 "Sec-WebSocket-Version: 13", "", ""]
         link.sendall("\r\n".join(asked).encode())
         answer = link.recv(4096)
         if b" 101 " not in answer:

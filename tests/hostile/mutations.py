@@ -24,6 +24,9 @@ import time
 import tomllib
 from pathlib import Path
 
+# No folder of byte code in the repository.
+sys.dont_write_bytecode = True
+
 import cases
 import home as homes
 import limited
