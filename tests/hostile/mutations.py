@@ -35,7 +35,6 @@ import mutate
 SECONDS, TIMES, MEMORY_MB = 10.0, 3.0, 1000.0
 # Other work on the machine may take so much longer by the clock.
 PATIENCE = 12.0
-FINGERPRINT = re.compile(r'"fingerprint": "\w*"')
 
 
 def copied(case, home, folder):
@@ -66,7 +65,7 @@ def fault(case, done, limit_s, folder):
         return f"{done.memory_mb:.0f} MB"
     if "panicked" in done.err:
         return "panic"
-    if "report this as a bug" in done.err:
+    if "; report this as a bug" in done.err:
         return "a bug by its own words"
     if done.code not in (0, 2):
         return f"exit code {done.code}"
@@ -82,10 +81,6 @@ def is_named(case, err):
     # Files named in others.
     names += cases.BESIDE.get(case.victim, [])
     return "error:" in err and (any(it in err for it in names) or "for '<" in err)
-
-
-def read(path):
-    return path.read_bytes().decode("utf-8", "surrogateescape") if path.exists() else ""
 
 
 class Pair:
@@ -145,13 +140,12 @@ class Test:
         return done, fault(case, done, limit, folder), folder, f"laneweave {line}", ways
 
     def mend(self, folder, run):
-        """Gives the summary of a run the fingerprint of what now lies in its folder, if that can be run."""
+        """Gives a run the summary, with its fingerprint, of what now lies in its folder, if that can be run."""
         line = f"run {run}/scenario.toml --out mended --quiet"
         limited.run(self.program, line.split(), folder, SECONDS, self.given.cpu)
-        found = FINGERPRINT.search(read(folder / "mended/summary.json"))
-        path = folder / run / "summary.json"
-        if found:
-            path.write_bytes(FINGERPRINT.sub(found.group(), read(path)).encode("utf-8", "surrogateescape"))
+        summary = folder / "mended/summary.json"
+        if summary.exists():
+            shutil.copyfile(summary, folder / run / "summary.json")
         shutil.rmtree(folder / "mended", ignore_errors=True)
 
     def keep(self, folder, line, wrong, done, ways):

@@ -100,6 +100,12 @@ impl EdieGrid {
         Ok(EdieGrid { window, lengths_m, boxes })
     }
 
+    /// Whether it may be `new` with traffic: the same sections and intervals.
+    pub fn fits(&self, new: &EdieGrid) -> bool {
+        let laid_out = |it: &EdieGrid| (it.window, it.boxes.len());
+        laid_out(self) == laid_out(new) && self.lengths_m == new.lengths_m
+    }
+
     /// Adds a piece of a trajectory: from `time_s` on, a vehicle was on the section for `duration_s` and covered
     /// `distance_m` there. A piece across several intervals is shared as at constant speed.
     ///

@@ -18,6 +18,12 @@ impl Histogram {
         Histogram { from, width, bins: vec![0; bins.max(1)], outside: [0; 2] }
     }
 
+    /// Whether it may be `new` with values: the same bins, or wider ones.
+    pub fn fits(&self, new: &Histogram) -> bool {
+        let is_wider = self.width >= new.width && self.width.is_finite();
+        self.from == new.from && self.bins.len() == new.bins.len() && is_wider
+    }
+
     /// Counts a value. An infinite one lies beyond the bins; NaN is not counted.
     #[inline]
     pub fn add(&mut self, value: f64) {

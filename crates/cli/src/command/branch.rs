@@ -51,7 +51,8 @@ impl BranchArguments {
                 "the run ended with state hash {}, but its repetition with {end}",
                 record.end.state_hash
             );
-            return Err(Fault::bug(out.display(), what));
+            let remedy = "run it again if its summary.json was changed; otherwise report this as a bug";
+            return Err(Fault::new(out.display(), what, remedy));
         }
         let texts: Vec<&str> = settings.iter().map(Setting::text).collect();
         let settings = if texts.is_empty() { "nothing changed".into() } else { texts.join(", ") };

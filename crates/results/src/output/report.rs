@@ -2,13 +2,16 @@
 //! `lane_change_rate.svg` and `time_space.svg`.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use laneweave_network::Network;
 use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::World;
 
 use super::Output;
 use super::folder::Folder;
+use crate::folder::CHECKPOINT;
 use crate::outcome::{About, Provenance, Summary};
 use crate::pack::{pack, unpack};
 use crate::report::{Record, RunReport};
@@ -22,6 +25,7 @@ pub(super) struct Report {
     about: About,
     provenance: Provenance,
     record: Record,
+    network: Arc<Network>,
 }
 
 impl Report {
@@ -34,6 +38,7 @@ impl Report {
             about: About::of(scenario, prepared),
             provenance: folder.provenance.clone(),
             record: Record::of(scenario, prepared),
+            network: prepared.world.shared_network(),
         }
     }
 }
@@ -49,12 +54,17 @@ impl Output for Report {
     }
 
     fn restore(&mut self, saved: &[u8]) -> Result<(), Fault> {
-        self.record = unpack(saved)?;
+        let record: Record = unpack(saved)?;
+        if !record.fits(&self.record, &self.network) {
+            let what = "what it keeps for the report is not of this run";
+            return Err(Fault::new(CHECKPOINT, what, "run again from the beginning, without --resume"));
+        }
+        self.record = record;
         Ok(())
     }
 
     fn finish(self: Box<Self>, world: &World, summary: &Summary) -> Result<Vec<PathBuf>, Fault> {
-        let Report { path, rate, time_space, about, provenance, record } = *self;
+        let Report { path, rate, time_space, about, provenance, record, .. } = *self;
         let end = world.clock().time();
         let (about, provenance, record, network) = (&about, &provenance, &record, world.network());
         let aggregates = &world.lanelet_aggregates();

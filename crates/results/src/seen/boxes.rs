@@ -35,6 +35,19 @@ impl Boxes {
         Boxes { sections, window, grid, changes: Vec::new() }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing: the same boxes.
+    pub(crate) fn fits(&self, new: &Boxes) -> bool {
+        let has_grid = match (&self.grid, &new.grid) {
+            (Some(grid), Some(new)) => grid.fits(new),
+            (None, None) => true,
+            _ => false,
+        };
+        let sections = self.sections.lane_lengths.len();
+        has_grid
+            && (&self.sections, self.window) == (&new.sections, new.window)
+            && self.changes.iter().all(|(section, ..)| *section < sections)
+    }
+
     /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {

@@ -9,7 +9,7 @@ const SECTION: f64 = 500.0;
 const LEAST_LANE: f64 = 200.0;
 
 /// A network divided into sections, each with all its parallel lanes.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sections {
     /// Length of all lanes of each section together [m].
     pub(super) lane_lengths: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct Sections {
 }
 
 /// The position of a chain along its carriageway.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Place {
     carriageway: usize,
     /// Where it begins [m].
@@ -30,7 +30,7 @@ struct Place {
 }
 
 /// Chains that are joined by lane changes.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Carriageway {
     from: f64,
     to: f64,
@@ -133,13 +133,13 @@ fn lay_out(network: &Network) -> (Vec<Place>, Vec<Carriageway>) {
 }
 
 /// Successive lanes, as a driver uses them who changes lanes only where a lane ends.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Road {
     pieces: Vec<Piece>,
 }
 
 /// A chain of a road, from one station to another.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Piece {
     chain: ChainIndex,
     from: f64,

@@ -76,6 +76,12 @@ impl Traces {
         }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing: the same lane at the same time.
+    pub(crate) fn fits(&self, new: &Traces) -> bool {
+        let times = |it: &Traces| [it.begin, it.end, it.sampling];
+        (self.lanelet, &self.road, times(self)) == (new.lanelet, &new.road, times(new))
+    }
+
     /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();

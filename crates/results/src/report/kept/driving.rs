@@ -59,6 +59,13 @@ impl Driving {
         Driving { style_of: styles_of(world), styles }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing: the same styles and bins.
+    pub(super) fn fits(&self, new: &Driving) -> bool {
+        self.style_of == new.style_of
+            && self.styles.len() == new.styles.len()
+            && self.styles.iter().zip(&new.styles).all(|(it, new)| it.fits(new))
+    }
+
     /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
@@ -102,6 +109,14 @@ impl StyleDriving {
             times_to_collision: Histogram::new(0.0, TIMES_TO_COLLISION.0, TIMES_TO_COLLISION.1),
             accelerations: Histogram::new(from, width, bins),
         }
+    }
+
+    fn fits(&self, new: &StyleDriving) -> bool {
+        self.name == new.name
+            && self.speeds.fits(&new.speeds)
+            && self.time_gaps.fits(&new.time_gaps)
+            && self.times_to_collision.fits(&new.times_to_collision)
+            && self.accelerations.fits(&new.accelerations)
     }
 
     fn see(&mut self, speed: f64, ahead: Option<Ahead>) {

@@ -6,6 +6,7 @@ mod places;
 mod reasons;
 mod trip_times;
 
+use laneweave_network::{Network, Position};
 use laneweave_scenario::scenario::{Prepared, Scenario};
 use laneweave_sim::{Event, Incident, LaneChangeKind, World};
 use laneweave_study::{LaneInTime, Sheet, rate_density, time_space};
@@ -65,6 +66,23 @@ impl Record {
         }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing of a run on `network`: what a checkpoint holds may be
+    /// of another run, or changed.
+    pub(crate) fn fits(&self, new: &Record, network: &Network) -> bool {
+        let Record { boxes, roads, driving, reasons, trips, crowd, brakings: _, incidents, places } = self;
+        let is_there = |it: &Position| it.chain.at() < network.chains.len() && it.x.is_finite();
+        boxes.fits(&new.boxes)
+            && roads.len() == new.roads.len()
+            && roads.iter().zip(&new.roads).all(|(it, new)| it.fits(new))
+            && driving.fits(&new.driving)
+            && reasons.fits(&new.reasons)
+            && trips.fits(&new.trips)
+            && crowd.is_sound()
+            && incidents.len() <= INCIDENTS
+            && incidents.iter().flat_map(|it| &it.places).all(is_there)
+            && places.fits(&new.places)
+    }
+
     /// Observes the world after a step.
     pub(crate) fn observe(&mut self, world: &World) {
         let Record { boxes, roads, driving, reasons, trips, crowd, brakings, incidents, places } = self;
@@ -104,5 +122,42 @@ impl Record {
             changes: traces.map_or(Vec::new(), |it| it.changes.clone()),
         };
         time_space(Sheet::Page, &title, &[lane]).svg
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use laneweave_scenario::Origin;
+    use laneweave_scenario::scenario::prepare;
+
+    use super::*;
+
+    #[test]
+    fn what_is_kept_goes_on_only_from_a_run_of_the_same_lanes_and_styles() {
+        let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/on_ramp.osm");
+        let scenario = Scenario::of_map(map);
+        let mut prepared = prepare(&scenario, &Origin::default()).expect("the map is sound");
+        let new = Record::of(&scenario, &prepared);
+        let network = prepared.world.shared_network();
+        let mut seen = Record::of(&scenario, &prepared);
+        for _ in 0..300 {
+            prepared.step();
+            seen.observe(&prepared.world);
+        }
+        assert!(seen.fits(&new, &network));
+        let changed = |change: &dyn Fn(&mut Record)| {
+            let bytes = crate::pack::pack(&seen).expect("it can be packed");
+            let mut record = crate::pack::unpack(&bytes).expect("it was packed");
+            change(&mut record);
+            !record.fits(&new, &network)
+        };
+        assert!(!changed(&|_| {}));
+        assert!(changed(&|it| it.driving.styles.truncate(1)));
+        assert!(changed(&|it| it.reasons.styles.swap(0, 1)));
+        assert!(changed(&|it| it.roads.clear()));
+        assert!(changed(&|it| it.places.entrances.clear()));
+        assert!(changed(&|it| it.driving.styles[0].speeds = laneweave_study::Histogram::new(0.0, 0.0, 60)));
     }
 }

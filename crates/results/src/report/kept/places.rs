@@ -96,6 +96,17 @@ impl Places {
         }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing: the same entrances.
+    pub(super) fn fits(&self, new: &Places) -> bool {
+        let lanes = |it| {
+            let Places { entrances, .. }: &Places = it;
+            entrances.iter().map(|it| (it.lanelet, it.at))
+        };
+        self.begin == new.begin
+            && lanes(self).eq(lanes(new))
+            && self.changes.iter().chain(&self.incidents).all(|it| it.every > 0 && it.kept.len() <= MOST)
+    }
+
     /// Observes the world after a step.
     pub(crate) fn observe(&mut self, world: &World) {
         let network = world.network();

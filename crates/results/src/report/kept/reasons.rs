@@ -59,6 +59,18 @@ impl Reasons {
         }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing: the same styles, incentives and bins.
+    pub(super) fn fits(&self, new: &Reasons) -> bool {
+        let histograms = |it| {
+            let Reasons { gaps, times_to_collision, gains, .. }: &Reasons = it;
+            gaps.iter().chain(times_to_collision).chain(gains)
+        };
+        (self.begin, &self.style_of, &self.styles, &self.incentives)
+            == (new.begin, &new.style_of, &new.styles, &new.incentives)
+            && self.completed.len() == new.completed.len()
+            && histograms(self).zip(histograms(new)).all(|(it, new)| it.fits(new))
+    }
+
     /// Observes the events of a step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {

@@ -43,6 +43,14 @@ impl TripTimes {
         }
     }
 
+    /// Whether it goes on from `new`, which has seen nothing: the same styles and bins.
+    pub(super) fn fits(&self, new: &TripTimes) -> bool {
+        self.style_of == new.style_of
+            && self.of_styles.iter().map(|it| &it.0).eq(new.of_styles.iter().map(|it| &it.0))
+            && self.durations.fits(&new.durations)
+            && self.delays.fits(&new.delays)
+    }
+
     /// Observes the events of a step.
     pub fn observe(&mut self, world: &World) {
         for event in world.events() {
@@ -77,6 +85,11 @@ impl Default for Crowd {
 }
 
 impl Crowd {
+    /// Whether its times between two counts are possible.
+    pub(super) fn is_sound(&self) -> bool {
+        self.every >= COUNTING && self.every.is_finite() && self.counts.len() <= MOST_COUNTS
+    }
+
     /// Observes the world after a step.
     pub fn observe(&mut self, world: &World) {
         let clock = world.clock();
