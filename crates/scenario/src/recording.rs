@@ -82,7 +82,7 @@ pub fn elsewhere(recording: &Recording, network: &Network) -> Problem {
         element: "the recording".into(),
         line: None,
         what: format!(
-            "most of it lies outside all lanelets: the recording covers {}, the map {}",
+            "most of the recording lies outside all lanelets: it covers {}, the map {}",
             text(theirs),
             text(own)
         ),

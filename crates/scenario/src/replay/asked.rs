@@ -78,5 +78,5 @@ pub(super) fn check_place(matched: &Matched, scenario: &Scenario) -> Result<(), 
         return Ok(());
     }
     let problem = elsewhere(matched.recording, matched.network);
-    Err(Fault::new(scenario.map.display(), format!("{} {}", problem.element, problem.what), problem.remedy))
+    Err(Fault::new(scenario.map.display(), problem.what, problem.remedy))
 }

@@ -306,7 +306,7 @@ fn mistakes_are_refused_with_their_place_and_their_remedy() {
     let told = [
         ("fit tracks.csv", "tracks.csv: a recording needs the map of its location; add --map MAP"),
         ("fit nothing.csv --map maps/motorway_2_lanes.osm", "nothing.csv: cannot be read"),
-        ("fit tracks.csv --map maps/town.osm", "most of it lies outside all lanelets"),
+        ("fit tracks.csv --map maps/town.osm", "most of the recording lies outside all lanelets"),
         ("fit tracks.csv --map maps/motorway_2_lanes.osm --prior cautios", "did you mean \"cautious\"?"),
         (
             "fit tracks.csv --map maps/motorway_2_lanes.osm --prior mobil",

@@ -106,7 +106,7 @@ fn what_cannot_be_replayed_is_refused_with_a_remedy() {
     assert!(refusal(&folder, "replay observed.csv").contains("needs the map of its location; add --map MAP"));
     assert!(refusal(&folder, "replay nowhere.csv --map MAPS/ramps.osm").contains("nowhere.csv"));
     let elsewhere = refusal(&folder, "replay observed.csv --map MAPS/roundabout.osm");
-    assert!(elsewhere.contains("most of it lies outside all lanelets"), "{elsewhere}");
+    assert!(elsewhere.contains("most of the recording lies outside all lanelets: it covers"), "{elsewhere}");
     assert!(with("--reactive 1.5").contains("--reactive: a share of 1.5; choose 0 to 1"));
     assert!(with("--from -1").contains("--from"));
     let unknown = with("--reactive-ids 123456789");
