@@ -173,14 +173,16 @@ class Test:
         if unsound:
             raise SystemExit("\n".join(unsound))
         begun = time.monotonic()
-        for number in range(self.given.runs):
+        for number in range(self.given.first, self.given.first + self.given.runs):
+            if time.monotonic() - begun > self.given.seconds:
+                break
             pair = pairs[number % len(pairs)]
             case = pair.cases[number // len(pairs) % len(pair.cases)]
             done, wrong, folder, line, ways = self.one(case, number + 1)
             pair.count(done, wrong)
             if wrong:
                 self.keep(folder, line, wrong, done, ways)
-            if number % 500 == 499:
+            if number % 200 == 199:
                 passed = time.monotonic() - begun
                 print(f"{number + 1} runs, {passed:.0f} s, {self.kept} failures", file=sys.stderr, flush=True)
         report(pairs, self.given.table)
@@ -207,6 +209,8 @@ def main():
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     reader.add_argument("program", help="the program, built for release")
     reader.add_argument("--runs", type=int, default=10_000, help="number of changed inputs [default: 10000]")
+    reader.add_argument("--first", type=int, default=0, help="number of the first of them [default: 0]")
+    reader.add_argument("--seconds", type=float, default=float("inf"), help="end after this time [default: never]")
     reader.add_argument("--seed", default="1", help="seed of the changes [default: 1]")
     reader.add_argument("--only", default="", help='a pattern of "COMMAND: KIND OF INPUT" [default: all]')
     reader.add_argument("--keep", default="mutations-failed", help="folder of what fails [default: mutations-failed]")
