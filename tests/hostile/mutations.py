@@ -35,6 +35,8 @@ import mutate
 SECONDS, TIMES, MEMORY_MB = 10.0, 3.0, 1000.0
 # Other work on the machine may take so much longer by the clock.
 PATIENCE = 12.0
+# A sound input may take so long by the clock [s].
+LONGEST = 600.0
 
 
 def copied(case, home, folder):
@@ -135,7 +137,8 @@ class Test:
         elif number:
             line, ways = cases.changed_line(draw, line), ["numbers"]
         limit = max(SECONDS, TIMES * self.sound.get(case.line, 0.0))
-        done = limited.run(self.program, shlex.split(line), folder, limit * PATIENCE, self.given.cpu,
+        patience = limit * PATIENCE if number else LONGEST
+        done = limited.run(self.program, shlex.split(line), folder, patience, self.given.cpu,
                            messages if case.serves else None)
         return done, fault(case, done, limit, folder), folder, f"laneweave {line}", ways
 
