@@ -133,7 +133,7 @@ fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTree
         }
         let folder = dir.join(STYLES);
         fs::create_dir_all(&folder).map_err(|error| Fault::refused(&folder, "made", &error))?;
-        let Source { path, text } = find(name, origin.style_folder(), || name.clone())?;
+        let Source { path, text } = find(name, origin.style_folder(), || origin.place(&["styles", name]))?;
         let stem = path.file_stem().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
         let key = |name: &str| format!("{STYLES}/{name}");
         let name = keep_text(&folder, [&stem, "toml"], &text, |it| kept.contains_key(&key(it)))?;
@@ -241,7 +241,9 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
 /// # Errors
 /// If a style file cannot be read.
 pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, u64)>, Fault> {
-    let text = |name: &String| find(name, origin.style_folder(), || name.clone()).map(|it| it.text);
+    let text = |name: &String| {
+        find(name, origin.style_folder(), || origin.place(&["styles", name])).map(|it| it.text)
+    };
     let mut styles = Vec::new();
     for (name, weight) in &scenario.styles {
         styles.push((text(name)?, weight.to_bits()));

@@ -102,6 +102,15 @@ fn what_cannot_be_told_is_refused_with_a_remedy() {
         assert!(longer.contains("summary.json: ") && longer.contains("the file was changed"), "{longer}");
     }
     std::fs::write(folder.path().join("out/summary.json"), summary).unwrap();
+    let scenario = folder.read("out/scenario.toml");
+    let other = scenario.replace("conservative = 7.4", "conservativ = 7.4");
+    std::fs::write(folder.path().join("out/scenario.toml"), other).unwrap();
+    let unknown = refused("explain out --vehicle 0");
+    assert!(
+        unknown.contains("scenario.toml:") && unknown.contains("unknown style \"conservativ\""),
+        "{unknown}"
+    );
+    std::fs::write(folder.path().join("out/scenario.toml"), scenario).unwrap();
     let map = folder.read("own.osm").replacen("120", "110", 1);
     std::fs::write(folder.path().join("own.osm"), map).unwrap();
     let changed = refused("explain out --vehicle 0");
