@@ -52,8 +52,7 @@ mod tests {
     use std::path::Path;
 
     use laneweave_network::{ChainIndex, Point};
-    use laneweave_scenario::Origin;
-    use laneweave_scenario::scenario::{Scenario, prepare};
+    use laneweave_scenario::scenario::{Origin, Scenario, prepare};
     use laneweave_sim::{Class, Incident, IncidentKind};
 
     use super::*;
@@ -74,7 +73,7 @@ mod tests {
                 driver_parameters: [0, parameters],
                 classes: [Class::Car; 2],
                 places: [Position { chain: ChainIndex(chain), x }; 2],
-                at: Point::default(),
+                at: Point::new(0.0, 0.0, 0.0),
                 speeds: [0.0; 2],
                 depth: 0.1,
             }])

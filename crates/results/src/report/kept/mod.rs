@@ -129,8 +129,7 @@ impl Record {
 mod tests {
     use std::path::Path;
 
-    use laneweave_scenario::Origin;
-    use laneweave_scenario::scenario::prepare;
+    use laneweave_scenario::scenario::{Origin, prepare};
 
     use super::*;
 
