@@ -78,10 +78,14 @@ def fault(case, done, limit_s, folder):
 
 def is_named(case, err):
     """Whether the message names an input or an option."""
-    names = re.findall(r"[\w.]+\.\w+|--[\w-]+", case.line) + [it for it in case.line.split() if "-" not in it]
-    names += case.victim.split("/") if case.victim else []
-    # Files named in others.
-    names += cases.BESIDE.get(case.victim, [])
+    names = re.findall(r"[\w.]+\.\w+|--[\w-]+", case.line)
+    folders = [it for it in case.line.split() if it in cases.BESIDE and "." not in it]
+    # Of a generator it is enough to say what it was to make, and with which number.
+    names += [" ".join(case.line.split()[:2])] * case.line.startswith("generate")
+    names += [it + end for it in folders for end in ("/", ":")]
+    names += [case.victim.split("/")[-1]] if case.victim else []
+    # Files named in others, and those of which a checkpoint consists.
+    names += cases.BESIDE.get(case.victim, []) + ["checkpoint"] * (case.line.startswith("run ck"))
     return "error:" in err and (any(it in err for it in names) or "for '<" in err)
 
 
