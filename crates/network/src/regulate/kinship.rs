@@ -12,8 +12,8 @@ const NEAR: f64 = 40.0;
 const SAME: f64 = 4.0;
 /// Places of a path this close behind each other are no conflict, whatever the shape of the path [m].
 const BEHIND: f64 = 15.0;
-/// Before the place where a lane ends for long vehicles these need so much road to leave it [m], ours: two and a half of
-/// their lengths.
+/// Before the place where a lane ends for long vehicles these need so much road to leave it [m], ours: two and a half
+/// of their lengths.
 const TO_LEAVE: f64 = 30.0;
 
 /// Paths lead in one direction if the cosine of the angle between their headings is at least this: 60°. Ours.

@@ -36,7 +36,7 @@ impl Boxes {
     }
 
     /// Whether it goes on from `new`, which has seen nothing: the same boxes.
-    pub(crate) fn fits(&self, new: &Boxes) -> bool {
+    pub fn fits(&self, new: &Boxes) -> bool {
         let has_grid = match (&self.grid, &new.grid) {
             (Some(grid), Some(new)) => grid.fits(new),
             (None, None) => true,

@@ -77,7 +77,7 @@ impl Traces {
     }
 
     /// Whether it goes on from `new`, which has seen nothing: the same lane at the same time.
-    pub(crate) fn fits(&self, new: &Traces) -> bool {
+    pub fn fits(&self, new: &Traces) -> bool {
         let times = |it: &Traces| [it.begin, it.end, it.sampling];
         (self.lanelet, &self.road, times(self)) == (new.lanelet, &new.road, times(new))
     }

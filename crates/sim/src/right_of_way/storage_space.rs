@@ -87,8 +87,8 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
     end.min(limit.min(reach) - taken) - clear
 }
 
-/// Where the routes of the vehicle at `spot`, whose chain begins `base` ahead, and of the vehicle at `from` part, beyond
-/// the end of that chain [m]; infinite if they do not within `until`.
+/// Where the routes of the vehicle at `spot`, whose chain begins `base` ahead, and of the vehicle at `from` part, at
+/// the end of that chain or beyond [m]; infinite if they do not within `until`.
 fn fork(scene: &Scene, from: Viewpoint, spot: Spot, base: f64, until: f64) -> f64 {
     let theirs = scene.driver(spot).goal.destination();
     let (mut chain, mut end) = (spot.chain, base + scene.network.chain(spot.chain).length);
