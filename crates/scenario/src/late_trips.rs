@@ -61,7 +61,7 @@ pub fn on_late_trips([driven, left_out]: &[Vec<Late>; 2]) -> [Option<Remark>; 2]
         remark(what, "leave them out of the demand, or let drivers change lanes on a longer stretch")
     });
     let left_out = too_little_road(left_out).and_then(|it| {
-        let what = format!("{it}: the demand has none of them where it does not name them");
+        let what = format!("{it}: the demand leaves them out, unless it names them");
         let remedy =
             "name them in demand.od to have them all the same, or let drivers change lanes on a longer stretch";
         remark(what, remedy)

@@ -197,7 +197,7 @@ fn trips_with_too_little_road_for_their_lane_changes_are_left_out_and_driven_if_
     let [.., last] = &found[..] else { panic!("no remark") };
     let remedy =
         "name them in demand.od to have them all the same, or let drivers change lanes on a longer stretch";
-    assert_eq!(*last, format!("{FAULT}: the demand has none of them where it does not name them; {remedy}"));
+    assert_eq!(*last, format!("{FAULT}: the demand leaves them out, unless it names them; {remedy}"));
     let folder = Folder::new();
     assert_eq!(folder.laneweave(&format!("generate {make} m.osm")).code(), 0);
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
