@@ -1,7 +1,7 @@
 //! Trips with too little road for the lane changes of their route, in words.
 
 use laneweave_network::{Class, Classes, Network};
-use laneweave_sim::{LateTrip, LateTrips, Navigator, Place, Places, World};
+use laneweave_sim::{LateTrip, Navigator, Place, Places, World};
 use serde::Serialize;
 
 use crate::remarks::{Remark, remark};
@@ -19,20 +19,26 @@ pub struct Late {
 }
 
 impl Late {
+    /// So many waypoints of a class restriction are planned at a time: 260 MB.
+    const WAYPOINTS_AT_ONCE: usize = 4_000_000;
+
     /// Those of the usual classes between `places`: those that the default demand has, since there are no others, and
     /// those that it leaves out.
     pub fn between(network: &Network, places: &Places) -> [Vec<Late>; 2] {
         let Places { origins, destinations } = places;
         let usual = Demand::default().classes();
-        let navigator = Navigator::towards_for(network, destinations, usual);
-        let all: Vec<&Place> = origins.iter().collect();
-        let LateTrips { late, in_time } = navigator.late_trips(network, &all, destinations.len());
         let of_usual = |classes: Classes| classes.iter().filter(|it| usual.has(*it)).collect::<Classes>();
-        let named = |it: &LateTrip| {
-            Late::of(of_usual(it.classes), &origins[it.origin], &destinations[it.destination])
-        };
-        let late: Vec<Late> = late.iter().filter_map(named).collect();
-        let has_others = in_time.into_iter().any(|it| !of_usual(it).is_empty());
+        let all: Vec<&Place> = origins.iter().collect();
+        let (mut late, mut has_others) = (Vec::new(), false);
+        let at_once = (Late::WAYPOINTS_AT_ONCE / network.chains.len().max(1)).max(1);
+        for part in destinations.chunks(at_once) {
+            let navigator = Navigator::towards_for(network, part, usual);
+            let found = navigator.late_trips(network, &all, part.len());
+            let named =
+                |it: &LateTrip| Late::of(of_usual(it.classes), &origins[it.origin], &part[it.destination]);
+            late.extend(found.late.iter().filter_map(named));
+            has_others |= found.in_time.into_iter().any(|it| !of_usual(it).is_empty());
+        }
         if has_others { [Vec::new(), late] } else { [late, Vec::new()] }
     }
 

@@ -27,6 +27,16 @@ fn chain(network: &Network, id: i64) -> ChainIndex {
     chains.into_iter().find(|it| network.lanelet_at(Position::new(*it, 0.0)).0.id == id).unwrap()
 }
 
+/// A planner for cars.
+fn planner<'a>(
+    network: &'a Network,
+    into: &'a [Into],
+    links: &'a Links,
+    restrictions: &'a ClassRestrictions,
+) -> Planner<'a> {
+    Planner { network, into, links, restrictions, restriction: 0 }
+}
+
 /// The first lanelet after the fork, the time of the route, and that of the alternative. `slow` gives a lanelet's chain
 /// another time than the free one.
 fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
@@ -34,13 +44,7 @@ fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
     let into = beside_into(&network);
     let restrictions = ClassRestrictions::default();
     let mut links = Links::of(&network);
-    let free = Planner {
-        network: &network,
-        into: &into,
-        links: &links,
-        restrictions: &restrictions,
-        restriction: 0,
-    };
+    let free = planner(&network, &into, &links, &restrictions);
     let place = Place::Gate(network.exits[0].clone());
     let mut table = free.plan(&place);
     let times: Vec<f64> = (0..network.chains.len() as u32)
@@ -51,13 +55,7 @@ fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
         })
         .collect();
     links.take(times.into_iter());
-    let planner = Planner {
-        network: &network,
-        into: &into,
-        links: &links,
-        restrictions: &restrictions,
-        restriction: 0,
-    };
+    let planner = planner(&network, &into, &links, &restrictions);
     let mut best = planner.plan(&place);
     planner.note_alternatives(&mut best, None);
     planner.retime(&mut table, &place);
@@ -97,13 +95,7 @@ fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
         let mut links = Links::of(&network);
         let times: Vec<f64> = (0..5).map(|it| if it == jammed { 900.0 } else { 30.0 }).collect();
         links.take(times.into_iter());
-        let planner = Planner {
-            network: &network,
-            into: &into,
-            links: &links,
-            restrictions: &restrictions,
-            restriction: 0,
-        };
+        let planner = planner(&network, &into, &links, &restrictions);
         let table = planner.plan(&Place::Inside(inner));
         let [here, there] = [long, short].map(|it| table[it.at()]);
         assert_eq!((here.changes, here.via), (0, long), "{jammed}");
@@ -143,13 +135,7 @@ fn no_route_leads_around_a_jam_again_and_again() {
         let mut links = Links::of(&network);
         let chains = (0..network.chains.len() as u32).map(ChainIndex);
         links.take(chains.map(|it| if it == long { jam } else { 30.0 }));
-        let planner = Planner {
-            network: &network,
-            into: &into,
-            links: &links,
-            restrictions: &restrictions,
-            restriction: 0,
-        };
+        let planner = planner(&network, &into, &links, &restrictions);
         let table = planner.plan(&Place::Gate(exit.clone()));
         let ways = [long, side, branch].map(|it| (table[it.at()].changes, table[it.at()].via));
         assert_eq!(ways, [(0, long), (1, branch), (1, long)], "{jam}");
