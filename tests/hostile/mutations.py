@@ -84,6 +84,7 @@ def is_named(case, err):
     names += [" ".join(case.line.split()[:2])] * case.line.startswith("generate")
     names += [it + end for it in folders for end in ("/", ":")]
     names += [case.victim.split("/")[-1]] if case.victim else []
+    names += ["FROM", "TO", "unexpected argument '-"] * case.line.startswith("routes")
     # Files named in others, and those of which a checkpoint consists.
     names += cases.BESIDE.get(case.victim, []) + ["checkpoint"] * (case.line.startswith("run ck"))
     return "error:" in err and (any(it in err for it in names) or "for '<" in err)

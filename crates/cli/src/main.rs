@@ -5,8 +5,6 @@ mod command;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::Parser;
-
 use clap::error::Error;
 use command::{Cli, complain, refuse_large_files, say, with_tip};
 use laneweave::{Fault, FaultKind};
@@ -24,7 +22,7 @@ const UNWRITTEN: u8 = 1;
 fn main() -> ExitCode {
     let started = Instant::now();
     refuse_large_files();
-    let done = Cli::try_parse().map_or_else(help, |cli| cli.execute(started));
+    let done = Cli::read().map_or_else(help, |cli| cli.execute(started));
     done.unwrap_or_else(|fault| {
         // A reader that closes standard output, such as `head`, is no error.
         if fault.kind != FaultKind::Closed {

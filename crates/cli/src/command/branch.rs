@@ -20,7 +20,7 @@ pub(crate) struct BranchArguments {
     #[arg(value_name = "OUT")]
     out: PathBuf,
     /// The time from which on the change holds, in seconds as in the tables.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     at: f64,
     /// The change: a key of all styles (style.speed.weight=2), or of one style (aggressive.follow.jam_gap=3); or
     /// other commands of users (commands=FILE, or commands=none); may be repeated.

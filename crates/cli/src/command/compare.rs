@@ -33,13 +33,13 @@ pub(crate) struct CompareArguments {
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     seeds: u64,
     /// Vehicles per hour in total; replaces all demands of the scenarios.
-    #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "VEH_PER_H")]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     duration: Option<f64>,
     /// Simulated seconds before anything is measured [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     warmup: Option<f64>,
     /// Folder for the report and the table of all runs.
     #[arg(long, value_name = "DIR", default_value = "comparison")]

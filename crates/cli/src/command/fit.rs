@@ -60,11 +60,11 @@ pub(crate) struct FitArguments {
     repetitions: u32,
     /// Seconds before its centre crosses the line at which a vehicle begins a change [default: where its path shows it,
     /// or 1.5 if many changes had begun before their vehicles were first seen].
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = number)]
     lead: Option<f64>,
     /// Correct the weights for errors of the recorded positions, normal with a standard deviation of M metres along
     /// each axis: by simulation-extrapolation [default: no correction].
-    #[arg(long, value_name = "M", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", value_parser = number)]
     position_error: Option<f64>,
     /// Judge the fit in the world: fit a style to the first two thirds of the recorded time, too, and simulate the last
     /// third with it N times, as a whole and from snapshots, beside a constant chance, MOBIL, LMRS and the built-in

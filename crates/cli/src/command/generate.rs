@@ -50,19 +50,19 @@ pub(crate) struct MotorwayArguments {
     #[arg(long, value_name = "N", default_value_t = 3)]
     lanes: usize,
     /// Length [m].
-    #[arg(long, value_name = "M", default_value_t = 5000.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", default_value_t = 5000.0, value_parser = number)]
     length: f64,
     /// Where an on-ramp meets the road [m from its start]; may be repeated.
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", value_parser = number)]
     on_ramp_at: Vec<f64>,
     /// Where an off-ramp leaves the road [m from its start]; may be repeated.
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", value_parser = number)]
     off_ramp_at: Vec<f64>,
     /// Where the slow lane ends [m from the start of the road].
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", value_parser = number)]
     lane_drop_at: Option<f64>,
     /// Speed limit [km/h], 5 to 300.
-    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KMH", default_value_t = 120.0, value_parser = number)]
     speed_limit: f64,
     #[command(flatten)]
     plain: Plain,
@@ -74,10 +74,10 @@ pub(crate) struct WeavingArguments {
     #[arg(long, value_name = "N", default_value_t = 2)]
     lanes: usize,
     /// From the on-ramp to the off-ramp [m], 100 to 1000.
-    #[arg(long, value_name = "M", default_value_t = 450.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", default_value_t = 450.0, value_parser = number)]
     length: f64,
     /// Speed limit [km/h], 5 to 300.
-    #[arg(long, value_name = "KMH", default_value_t = 120.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KMH", default_value_t = 120.0, value_parser = number)]
     speed_limit: f64,
     #[command(flatten)]
     plain: Plain,
@@ -92,13 +92,13 @@ pub(crate) struct GridArguments {
     #[arg(long, value_name = "C")]
     columns: usize,
     /// From one junction to the next [m], 80 to 1000.
-    #[arg(long, value_name = "M", default_value_t = 150.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", default_value_t = 150.0, value_parser = number)]
     block_length: f64,
     /// Number of lanes in each direction, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 2)]
     lanes: usize,
     /// Speed limit [km/h], 5 to 130.
-    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KMH", default_value_t = 50.0, value_parser = number)]
     speed_limit: f64,
     /// Control of the junctions; with priority, the streets that run east and west have priority.
     #[arg(long, value_enum, default_value_t = Order::Signals)]
@@ -116,10 +116,10 @@ pub(crate) struct ArterialArguments {
     #[arg(long, value_name = "N")]
     junctions: usize,
     /// From one junction to the next [m], 80 to 1000.
-    #[arg(long, value_name = "M", default_value_t = 300.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", default_value_t = 300.0, value_parser = number)]
     block_length: f64,
     /// Speed limit [km/h], 5 to 130.
-    #[arg(long, value_name = "KMH", default_value_t = 50.0, allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "KMH", default_value_t = 50.0, value_parser = number)]
     speed_limit: f64,
     /// Keep the slow lanes of the main street for buses, but not within 60 m of junctions; blocks are 200 m or longer.
     #[arg(long)]
@@ -137,7 +137,7 @@ pub(crate) struct RoundaboutArguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     lanes: usize,
     /// Radius of the middle of its ring [m], up to 60 [default: the smallest for these arms and lanes].
-    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "M", value_parser = number)]
     radius: Option<f64>,
     #[command(flatten)]
     plain: Plain,

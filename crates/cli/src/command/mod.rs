@@ -26,12 +26,14 @@ mod styles;
 mod tips;
 mod view;
 
+use std::any::TypeId;
 use std::fmt;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use laneweave::Fault;
 use laneweave::output::command_line;
 use laneweave::scenario::{Origin, Scenario};
@@ -110,7 +112,29 @@ enum Command {
     Man(shell::Pages),
 }
 
+/// The command, whose numbers and places may begin with a minus sign, so that the message about a wrong one names its
+/// option. A name or path may not: there an option would be taken for it.
+fn with_negative_values(command: clap::Command) -> clap::Command {
+    let named = command.mut_args(|it| {
+        let parser = it.get_value_parser();
+        let is_text =
+            [TypeId::of::<PathBuf>(), TypeId::of::<String>()].iter().any(|text| parser.type_id() == *text);
+        let takes_words = is_text || parser.possible_values().is_some();
+        let may_be_negative = !it.is_positional() && it.get_action().takes_values() && !takes_words;
+        if may_be_negative { it.allow_hyphen_values(true) } else { it }
+    });
+    named.mut_subcommands(with_negative_values)
+}
+
 impl Cli {
+    /// What the user asks for.
+    ///
+    /// # Errors
+    /// On a wrong command line, and if it asks for help or for the version.
+    pub(crate) fn read() -> Result<Cli, clap::Error> {
+        Cli::from_arg_matches(&with_negative_values(Cli::command()).try_get_matches()?)
+    }
+
     /// Does what the user asks for; `started` is when the process began.
     pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
         let done = match self.command {

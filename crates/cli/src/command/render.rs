@@ -30,10 +30,10 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "S", value_parser = number, default_value = "0.5")]
     every: f64,
     /// Time of the first picture in seconds [default: the begin].
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = number)]
     from: Option<f64>,
     /// No picture is later than this, in seconds [default: the end].
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = number)]
     until: Option<f64>,
 }
 

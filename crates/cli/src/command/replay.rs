@@ -38,7 +38,7 @@ pub(crate) struct ReplayArguments {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     columns: Option<PathBuf>,
     /// Share of the vehicles that become drivers who react, 0 to 1.
-    #[arg(long, value_name = "SHARE", value_parser = number, allow_negative_numbers = true, default_value = "0")]
+    #[arg(long, value_name = "SHARE", value_parser = number, default_value = "0")]
     reactive: f64,
     /// The ids of the vehicles that become drivers, separated by commas, in place of a share.
     #[arg(
@@ -50,7 +50,7 @@ pub(crate) struct ReplayArguments {
     )]
     reactive_ids: Vec<i64>,
     /// Time from which on they are drivers, in seconds after the first frame; those who come later are drivers at once.
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true, default_value = "0")]
+    #[arg(long, value_name = "S", value_parser = number, default_value = "0")]
     from: f64,
     /// A style of the drivers, or the path of a style file (.toml), and its weight; may be repeated [default:
     /// aggressive=1 conservative=7.4].
@@ -63,7 +63,7 @@ pub(crate) struct ReplayArguments {
     #[arg(long = "against", value_name = "MODEL", value_parser = model())]
     against: Vec<Model>,
     /// Simulated seconds [default: the whole recording].
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = number)]
     duration: Option<f64>,
     /// Seed of all random numbers.
     #[arg(long, value_name = "N", value_parser = seed, default_value = "1")]
@@ -72,7 +72,7 @@ pub(crate) struct ReplayArguments {
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, default_value = "replay")]
     out: PathBuf,
     /// Seconds between two samples of a trajectory, a multiple of the step [default: about 1].
-    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = number)]
     record: Option<f64>,
     #[command(flatten)]
     options: Reading,

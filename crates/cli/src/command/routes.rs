@@ -31,7 +31,7 @@ pub(crate) struct RoutesArguments {
     #[arg(long, value_name = "N", default_value_t = Sense::default().most)]
     most: usize,
     /// Longest travel time of a route, as a multiple of that of the fastest route.
-    #[arg(long, value_name = "TIMES", allow_negative_numbers = true, value_parser = number, default_value_t = Sense::default().longest)]
+    #[arg(long, value_name = "TIMES", value_parser = number, default_value_t = Sense::default().longest)]
     longest: f64,
     /// Print one JSON object.
     #[arg(long)]

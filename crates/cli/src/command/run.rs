@@ -36,13 +36,13 @@ pub(crate) struct RunArguments {
     /// Vehicles per hour in total, split over the entrances by their number of lanes for cars (on a map without
     /// entrance or exit evenly over its lanelets); replaces all demands of the scenario [default for a map: at most
     /// 63 % of its estimated capacity].
-    #[arg(long, value_name = "VEH_PER_H", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "VEH_PER_H", value_parser = number)]
     demand: Option<f64>,
     /// Simulated and measured seconds, after the warm-up [default: 600].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "S", value_parser = number)]
     duration: Option<f64>,
     /// Length of a step in seconds, 0.01 to 1 [default: 0.1].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "S", value_parser = number)]
     step: Option<f64>,
     /// A style of drivers, or the path of a style file (.toml), and its weight; may be repeated; replaces all styles
     /// of the scenario [default: aggressive=1 conservative=7.4].
@@ -54,27 +54,27 @@ pub(crate) struct RunArguments {
     #[arg(long, value_parser = model())]
     model: Option<Model>,
     /// Seed of all random numbers [default: 1].
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = seed)]
+    #[arg(long, value_name = "N", value_parser = seed)]
     seed: Option<u64>,
     /// Number of threads, 1 to 256; results do not depend on it [default: the cores of the machine, less one core for
     /// writing if trajectories are recorded; at most 2].
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<NonZero<usize>>,
     /// Simulated seconds before anything is measured or recorded [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "S", value_parser = number)]
     warmup: Option<f64>,
     /// Share of trucks, 0 to 1 [default: 0.1].
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "SHARE", value_parser = number)]
     trucks: Option<f64>,
     /// Folder of all results [default: out].
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
     /// Seconds between two samples of a trajectory, a multiple of the step; 0: no trajectories [default: 1].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "S", value_parser = number)]
     record: Option<f64>,
     /// Seconds over which flow, density and speed of every lanelet are measured, a multiple of the step; 0: not
     /// measured [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "S", value_parser = number)]
     flows: Option<f64>,
     /// Format of the tables [default: parquet].
     #[arg(long, value_parser = format())]
@@ -84,7 +84,7 @@ pub(crate) struct RunArguments {
     sumo: Vec<SumoFile>,
     /// Simulated seconds between two checkpoints, from which an incomplete run can be resumed; 0: no checkpoints
     /// [default: 0].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "S", value_parser = number)]
     checkpoint: Option<f64>,
     /// Resume an incomplete run from its last checkpoint, or from its beginning if it has none; other options must be
     /// the same as in the run, except --threads, --quiet and --json.

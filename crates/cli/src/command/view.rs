@@ -24,7 +24,7 @@ pub(crate) struct ViewArguments {
     shown: Shown,
     /// Show beside a run that has ended its twin: the time from which on the twin has other settings, in seconds as in
     /// the tables.
-    #[arg(long, value_name = "S", allow_negative_numbers = true, conflicts_with = "export")]
+    #[arg(long, value_name = "S", conflicts_with = "export")]
     at: Option<f64>,
     /// What is different in the twin: a key of all styles (style.speed.weight=2), or of one style
     /// (aggressive.follow.jam_gap=3); or other commands of users (commands=FILE, or commands=none); may be repeated.

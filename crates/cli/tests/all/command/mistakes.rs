@@ -337,6 +337,28 @@ fn numbers_with_units_separators_or_out_of_range() {
 }
 
 #[test]
+fn a_number_below_zero_is_refused_with_the_name_of_its_option() {
+    let folder = Folder::new();
+    for (line, option) in [
+        ("explain out --vehicle -3", "--vehicle <ID>"),
+        ("explain out --vehicle 3 --time -inf", "--time"),
+        ("routes MAPS/ramps.osm 1 2 --most -1", "--most <N>"),
+        ("compare MAPS/ramps.osm --seeds -0.0", "--seeds <N>"),
+        ("view --port -1", "--port <PORT>"),
+        ("render --size -1x2", "--size <WxH>"),
+    ] {
+        let refused = answer(&folder, line);
+        assert!(refused.contains(option) && !refused.contains("unexpected argument"), "{line}: {refused}");
+    }
+    let west = "render MAPS/ramps.osm --camera -100,0,300 --size 64x64 --until 0.5 --out frames";
+    assert_eq!(folder.laneweave(west).code(), 0);
+    // An option is not taken for a path.
+    assert!(
+        answer(&folder, "run MAPS/ramps.osm --out --quiet").contains("a value is required for '--out <DIR>'")
+    );
+}
+
+#[test]
 fn files_and_styles_where_a_command_is_wanted() {
     let folder = Folder::new();
     for (line, tip) in [
