@@ -7,14 +7,14 @@ use crate::gate::Gate;
 use crate::lanelet::Lanelet;
 
 /// Width of a car, and of the widest long vehicle [m].
-const BODIES: [f64; 2] = [Class::Car.body().width, Class::Bus.body().width];
+pub(crate) const BODIES: [f64; 2] = [Class::Car.body().width, Class::Bus.body().width];
 /// Length of a car, and of a long vehicle [m].
 const LENGTHS: [f64; 2] = [Class::Car.body().length, Class::Bus.body().length];
 /// Widths are compared at stations this far apart [m].
 const STEP: f64 = 0.5;
 /// Every vehicle that can reach a lane that ends can leave it. This is the minimum length of road with lane changes,
 /// on which the lane gets no narrower than lanes are drawn [m]. Ours.
-const LEAST_WINDOW: f64 = 5.0;
+pub(crate) const LEAST_WINDOW: f64 = 5.0;
 /// A lane that is nowhere wider than this was drawn without a width [m].
 const NO_WIDTH: f64 = 0.01;
 

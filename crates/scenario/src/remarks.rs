@@ -183,7 +183,11 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
             shut,
             "narrower than 2.55 m and end beside others: closed to long vehicles, which could not leave them",
         ),
-        (ends, "begin or end where they are too narrow for a car (1.8 m) or a long vehicle (2.55 m)"),
+        (
+            ends,
+            "begin or end where they are too narrow for a car (1.8 m) or a long vehicle (2.55 m), or for it beside a long \
+             vehicle in a bend",
+        ),
         (tight, "narrower than 2.55 m: long vehicles avoid them"),
     ];
     let told = parts

@@ -42,6 +42,8 @@ pub(super) struct Contact {
     /// Which vehicles would touch; `None` if all have space beside each other, or if cars do and no long vehicle
     /// comes there.
     pub(super) touch: Option<Touch>,
+    /// Smallest distance between the middles of two vehicles there, of which one may be long [m].
+    pub(super) nearest: f64,
     /// The paths lead in one direction, side by side.
     pub(super) is_along: bool,
     /// They are straight lanes of a road there, of one direction or of both.
@@ -326,6 +328,7 @@ fn contact(here: &Sample, there: &Sample) -> Option<Contact> {
     Some(Contact {
         stations: [here.station, there.station],
         touch,
+        nearest,
         is_along: is_side_by_side && along > 0.0,
         is_road,
         is_beyond: of_paths >= LONG_VEHICLE_WIDTH + space && (here.is_beyond || there.is_beyond),

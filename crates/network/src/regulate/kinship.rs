@@ -14,7 +14,7 @@ const SAME: f64 = 4.0;
 const BEHIND: f64 = 15.0;
 /// Before the place where a lane ends for long vehicles these need so much road to leave it [m], ours: two and a half
 /// of their lengths.
-const TO_LEAVE: f64 = 30.0;
+pub(super) const TO_LEAVE: f64 = 30.0;
 
 /// Paths lead in one direction if the cosine of the angle between their headings is at least this: 60°. Ours.
 const ONE_DIRECTION: f64 = 0.5;

@@ -1,12 +1,13 @@
 //! From rules to junctions: where chains conflict, which has priority, where drivers stop, and what that leaves for
 //! lane changes and entrances.
 //!
-//! `contact.rs` finds exactly where vehicles would touch. From that follow the conflict zones (`zones.rs`), how far the
-//! branches of forks are in each other's way (`fork.rs`), who has
-//! priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), and where
+//! `contact.rs` finds exactly where vehicles would touch. From that follow where lanes that end beside others are left
+//! (`ends.rs`), the conflict zones (`zones.rs`), how far the branches of forks are in each other's way (`fork.rs`), who
+//! has priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), and where
 //! they turn (`turning.rs`). The programs of lights are in `signals`. Who holds which zone is the simulator's.
 
 mod contact;
+mod ends;
 mod fork;
 mod kinship;
 mod nearby;
@@ -21,6 +22,7 @@ use crate::junction::{Crossing, Junctions, OnChain, Reach, Regulations, ZoneInde
 use crate::lanelet::Side;
 use crate::network::Network;
 use crate::signals;
+use contact::Contacts;
 use fork::Parting;
 use kinship::Kinship;
 use ring::Ring;
@@ -33,7 +35,9 @@ const ROOM_TO_ENTER: f64 = 15.0;
 impl Network {
     /// The same network with its junctions, at which `regulations` hold.
     pub fn regulated(mut self, regulations: &Regulations) -> Network {
-        let (junctions, partings) = junctions(&self, regulations);
+        let contacts = contact::contacts(&self);
+        ends::shorten(&mut self, &contacts.of_pairs);
+        let (junctions, partings) = junctions(&self, &contacts, regulations);
         self.junctions = junctions;
         fork::note_branches(&mut self, &partings);
         // Lanes that share a conflict area with others at the edge of the map get a conflict zone: vehicles enter in
@@ -101,10 +105,9 @@ impl Network {
     }
 }
 
-/// The junctions of `network` under `regulations`, and where branches of forks part. Lights without a program get one.
-fn junctions(network: &Network, regulations: &Regulations) -> (Junctions, Vec<Parting>) {
+/// The junctions of `network` with these `contacts` under `regulations`, and where branches of forks part. Lights without a program get one.
+fn junctions(network: &Network, contacts: &Contacts, regulations: &Regulations) -> (Junctions, Vec<Parting>) {
     let kinship = Kinship::of(network);
-    let contacts = contact::contacts(network);
     let (mut zones, partings) = zones::zones(&kinship, &contacts.of_pairs);
     let rings = ring::rings(network);
     let in_ring: Vec<bool> = rings.iter().map(|it| *it != Ring::No).collect();

@@ -1,8 +1,8 @@
 //! Lanes between drawn borders: where they are wide enough to drive on, and whether narrow ones conflict.
 
 use laneweave_network::{
-    DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side, Touch,
-    ZoneKind,
+    ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side,
+    Touch, ZoneKind,
 };
 
 /// Speed limit of all lanes [m/s].
@@ -180,4 +180,55 @@ fn a_way_that_leads_into_another_beside_a_strip_meets_that_way_alone() {
     assert!(matches!(zone.kind, ZoneKind::Merging(_)), "{zone:?}");
     let lanelets = zone.sides.map(|it| network.lanelet_at(Position::new(it.chain, it.end)).0.id);
     assert_eq!(lanelets, [1, 4]);
+}
+
+/// Points on an arc of this radius around the origin, which turns left from one angle [°] to another; beyond each angle
+/// the radius grows by what `wider` says [m].
+fn arc(radius: f64, [from, to]: [f64; 2], wider: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+    let angles = (0..=60).map(|it| from + (to - from) * f64::from(it) / 60.0);
+    let point = |it: f64| {
+        let (sin, cos) = it.to_radians().sin_cos();
+        ((radius + wider(it)) * cos, (radius + wider(it)) * sin)
+    };
+    angles.map(point).collect()
+}
+
+/// A lane of 2.8 m that turns left with a radius of 60 m on its outer border. On its left, inside, lies one of 2.5 m
+/// which narrows to nothing over its last third.
+fn narrows_in_a_bend() -> Network {
+    const RADIUS: f64 = 60.0;
+    let taper = |at: f64| 2.5 * ((at - 60.0) / 60.0).clamp(0.0, 1.0);
+    let none = |_: f64| 0.0;
+    let lane = |id, degrees, inner: &dyn Fn(f64) -> f64, radii: [f64; 2]| {
+        lanelet(id, &arc(radii[0], degrees, inner), &arc(radii[1], degrees, none))
+    };
+    let border = RADIUS - 2.8;
+    let mut road = vec![
+        lane(1, [-60.0, 120.0], &none, [border, RADIUS]),
+        lane(2, [120.0, 240.0], &none, [border, RADIUS]),
+        lane(3, [-60.0, 120.0], &taper, [border - 2.5, border]),
+    ];
+    road[0].following = vec![LaneletIndex(1)];
+    road[0].left = Some(LaneletIndex(2));
+    road[2].right = Some(LaneletIndex(0));
+    network(road)
+}
+
+#[test]
+fn a_lane_that_ends_in_a_bend_ends_for_a_car_before_a_long_vehicle_beside_it_would_touch() {
+    let network = narrows_in_a_bend();
+    let at = network.chains.iter().position(|it| it.is_lane_drop()).expect("a lane that ends");
+    let (drop, beside) = (&network.chains[at], &network.chains[1 - at]);
+    let until = drop.driven_until(false);
+    let (lanelet, along) = network.lanelet_at(Position::new(ChainIndex(at as u32), until));
+    let width = lanelet.clear_width(along);
+    assert!(width > 1.9, "it ends where it is {width} m wide, still wider than a car");
+    // The middle of a bus of 12 m is on the chord between its ends. The widths of a car and a bus are 1.80 and 2.55 m.
+    let middle = |at: f64| beside.centre.at(at - 6.0).midpoint(&beside.centre.at(at + 6.0));
+    let nearest = |car: f64| {
+        let places = (20..360).map(|it| middle(0.5 * f64::from(it)).distance(&drop.centre.at(car)));
+        places.fold(f64::INFINITY, f64::min)
+    };
+    assert!(nearest(until) >= 0.5 * (1.80 + 2.55), "{} m at {until} m", nearest(until));
+    assert!(nearest(until + 1.5) < 0.5 * (1.80 + 2.55), "{} m beyond {until} m", nearest(until + 1.5));
 }
