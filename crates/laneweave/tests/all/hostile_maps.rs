@@ -173,3 +173,20 @@ fn long_vehicles_leave_a_lane_that_ends_in_a_bend() {
 fn who_parts_from_the_road_behind_a_junction_may_have_to_stand_before_that() {
     drive_randomly(14_005, 900);
 }
+
+#[test]
+fn who_waits_at_the_end_of_a_lane_in_a_bend_is_not_touched_by_who_passes() {
+    for demand in [1.0, 1.5] {
+        drive_at(10_008, demand, 900);
+    }
+}
+
+#[test]
+fn nobody_changes_lanes_while_its_rear_would_stand_where_others_cross() {
+    drive_at(20_056, 1.5, 900);
+}
+
+#[test]
+fn who_waits_at_a_long_street_of_one_lane_goes_before_those_who_come_from_another_one() {
+    drive_at(20_018, 1.5, 900);
+}

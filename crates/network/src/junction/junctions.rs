@@ -4,7 +4,7 @@ use super::light::{InPlan, Light, LightState};
 use super::nearby::Nearby;
 use super::on_chain::{Crossing, OnChain};
 use super::plan::SignalPlan;
-use super::zone::{Reach, Touch, Zone};
+use super::zone::{Reach, Touch, Zone, ZoneKind};
 use crate::chain::ChainIndex;
 
 /// What drivers meet on the chains of a network.
@@ -112,6 +112,18 @@ impl Junctions {
     #[inline]
     pub fn nearby(&self, chain: ChainIndex) -> &[Nearby] {
         self.nearby.get(chain.at()).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a vehicle with its rear and its front at these stations of `chain` [m] stands where vehicles that cross
+    /// touch it.
+    pub fn is_crossed(&self, chain: ChainIndex, [rear, front]: [f64; 2], is_long: bool) -> bool {
+        let crossings = &self.on(chain).crossings;
+        let before = crossings.partition_point(|it| self.reach(*it).start < front);
+        let is_in = |it: &Crossing| {
+            let zone = &self.zones[it.zone.at()];
+            zone.kind == ZoneKind::Crossing && zone.touch.concerns(is_long) && self.reach(*it).end > rear
+        };
+        crossings[..before].iter().rev().any(is_in)
     }
 
     /// The stretches of `chain` that are part of junctions: zones, and the places where drivers stop [m].

@@ -256,12 +256,15 @@ impl Gap {
             let follower = Driver { pace: self.pace(spot, scene), ..me };
             Pairing { follower, leader }
         });
-        let behind = self.follower.map(|it| {
-            let gap = it.distance - me.length;
-            let leader = Ahead { gap, speed: me.pace.speed, acceleration: me.acceleration };
-            Pairing { follower: driver_of(scene, it.spot), leader }
-        });
-        [ahead, behind]
+        [ahead, self.follower.map(|it| self.behind(scene, spot, it))]
+    }
+
+    /// A `follower` with the driver.
+    fn behind<'a>(&self, scene: &Scene<'a>, spot: Spot, follower: Found) -> Pairing<'a> {
+        let me = driver_of(scene, spot);
+        let gap = follower.distance - me.length;
+        let leader = Ahead { gap, speed: me.pace.speed, acceleration: me.acceleration };
+        Pairing { follower: driver_of(scene, follower.spot), leader }
     }
 
     /// Checks whether the driver at `spot`, who waits for this gap, takes it now.
@@ -288,17 +291,20 @@ impl Gap {
 
     /// The first follower that can open a gap by braking no harder than it does to let others in. Those nearer drive
     /// past.
-    pub(crate) fn who_can_let_in(&self, scene: &Scene, spot: Spot) -> Option<Found> {
+    pub(crate) fn who_can_let_in(&self, scene: &Scene, spot: Spot, clock: Clock) -> Option<Found> {
         /// This many followers see the signal.
         const SEE_IT: usize = 10;
         let motion = scene.motion(spot);
         let room = room_to_let_in(scene, spot);
+        let safety = scene.style(spot).safety.of_follower();
         let can = |it: &Found| {
             let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
             let gentle = scene.style_of(driver).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
-            // A vehicle beside a standing one, or right behind it, cannot open a gap for it.
-            let is_beside = gap < room && motion.speed <= STANDSTILL;
+            // A vehicle beside a standing one, or right behind it, cannot open a gap for it; but one that has come as
+            // near as it may holds its gap open.
+            let is_near = gap < room && motion.speed <= STANDSTILL;
+            let is_beside = is_near && self.behind(scene, spot, *it).accepted(&safety, clock.dt).is_err();
             let left = (gap - room_to_yield(scene, spot, it.spot)).max(0.1);
             let needed = deceleration_to_avoid(left, behind.speed, motion.speed);
             // A driver with a reservation lets in nobody: no vehicle may come in front of it.
@@ -308,8 +314,8 @@ impl Gap {
         std::iter::successors(self.follower, |it| scene.next_behind(*it, motion.id)).take(SEE_IT).find(can)
     }
 
-    /// Whether the change, which takes `way` [m], is over before the next place where drivers may have to stop, and
-    /// no follower has a reservation already.
+    /// Whether the change, which takes `way` [m], is over before the next place where drivers may have to stop, the
+    /// whole vehicle has room beyond the last one on the new lane, and no follower has a reservation already.
     fn is_clear_of_junctions(&self, scene: &Scene, spot: Spot, way: f64) -> bool {
         /// Least distance to such a place at which lanes are still changed, at walking speed [m].
         const LEAST: f64 = 15.0;
@@ -321,8 +327,13 @@ impl Gap {
             |it: &Found| scene.has_reservation(it.spot, it.distance - f64::from(motion.length));
         let rear = self.x - f64::from(motion.length);
         let is_in_fork = rear < scene.network.chain(self.chain).fork_clearance;
+        let is_crossed = || {
+            let is_long = scene.driver(spot).class.is_long();
+            scene.network.junctions.is_crossed(self.chain, [rear, self.x], is_long)
+        };
         !scene.takes_kept_space(self.chain, self.x, rear)
             && !is_in_fork
+            && !is_crossed()
             && ![here, there].into_iter().any(|it| is_place_ahead(scene, it, way))
             && !self.follower.as_ref().is_some_and(has_reservation)
     }

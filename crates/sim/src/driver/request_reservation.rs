@@ -47,7 +47,7 @@ pub(crate) fn request_reservations(
         if !are_led_on(scene, &applicant, &outbox.survey) {
             // In an endless stream somebody always waits in front. Long after its patience the driver goes first.
             if asking.waited > STARVES + applicant.style.yielding.patience {
-                outbox.priorities.extend(turns(scene, &applicant, &outbox.survey.holds, asking.priority));
+                outbox.priorities.extend(turns(scene, &applicant, &outbox.survey, asking.priority));
             }
             outbox.reservation_requests.push(request);
             continue;
@@ -55,7 +55,7 @@ pub(crate) fn request_reservations(
         match may_pass(scene, &applicant, &outbox.survey, asking) {
             Ok(()) => outbox.reservation_requests.push(request),
             Err(PassHindrance::Others) => {
-                outbox.priorities.extend(turns(scene, &applicant, &outbox.survey.holds, asking.priority));
+                outbox.priorities.extend(turns(scene, &applicant, &outbox.survey, asking.priority));
                 outbox.reservation_requests.push(request);
             }
             Err(hindrance @ (PassHindrance::Space | PassHindrance::Roundabout)) => {

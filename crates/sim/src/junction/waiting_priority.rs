@@ -33,6 +33,6 @@ pub(crate) struct WaitingTurn {
     pub(crate) begins: f64,
     /// It waits to enter a roundabout.
     pub(crate) enters: bool,
-    /// Its vehicle already stands within a zone.
+    /// Its vehicle waits within a zone.
     pub(crate) is_within: bool,
 }

@@ -5,6 +5,7 @@ use laneweave_models::Style;
 use laneweave_models::yielding::time_to_cover;
 
 use crate::junction::reservations::Reservation;
+use crate::junction::waiting_priority::ZoneReservation;
 use crate::view::scene::{Scene, Spot, Viewpoint};
 
 /// A vehicle whose driver asks for a reservation.
@@ -39,9 +40,13 @@ impl<'a> Applicant<'a> {
         }
     }
 
-    /// Whether its vehicle already stands within a zone.
-    pub(crate) fn is_within_a_zone(&self) -> bool {
-        self.reservation.is_some_and(|own| own.holds.iter().any(|it| it.enter < own.travelled))
+    /// Whether its vehicle is within a zone, and would still be if it stopped after `stop` [m].
+    pub(crate) fn waits_within_a_zone(&self, stop: f64) -> bool {
+        self.reservation.is_some_and(|own| {
+            let is_within =
+                |it: &ZoneReservation| it.enter < own.travelled && own.travelled + stop < it.leave;
+            own.holds.iter().any(is_within)
+        })
     }
 
     /// Time until its front is `distance` ahead [s].

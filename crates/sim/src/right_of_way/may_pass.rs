@@ -112,7 +112,8 @@ pub(crate) fn may_pass(
     if survey.holds.iter().any(|hold| is_blocked(scene, applicant, hold, asking)) {
         return Err(PassHindrance::Blocked);
     }
-    if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking)) {
+    let waits_within = applicant.waits_within_a_zone(survey.stop);
+    if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking, waits_within)) {
         Ok(())
     } else {
         Err(PassHindrance::Others)
@@ -146,7 +147,14 @@ fn is_blocked(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, aski
     zone.kind == ZoneKind::Crossing && opposite(scene, hold, asking.priority.is_long).any(stays)
 }
 
-fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking: Asking) -> bool {
+/// Whether the applicant may have one of the zones. Without it, it may have to stand where it `waits_within` a zone.
+fn may_hold(
+    scene: &Scene,
+    applicant: &Applicant,
+    hold: &ZoneReservation,
+    asking: Asking,
+    waits_within: bool,
+) -> bool {
     let zone = &scene.network.junctions.zones[hold.zone.at()];
     let other_side = 1 - hold.side;
     let matters = |it: &WaitingTurn| zone.touch.is_of([asking.priority.is_long, it.priority.is_long]);
@@ -154,9 +162,8 @@ fn may_hold(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, asking
     // A roundabout clears itself: who waits on it, or on the way out, keeps out whoever waits to enter.
     let enters = || scene.reservations.roundabouts.is_entry(applicant.from.chain);
     let clears_it = |it: &WaitingTurn| it.enters && !asking.priority.is_patient && !enters();
-    // Nor does a junction lock if whoever stands within it comes before those who are out of patience outside.
-    let clears_junction =
-        |it: &WaitingTurn| !it.priority.is_patient && !it.is_within && applicant.is_within_a_zone();
+    // Nor does a junction lock if whoever would stand within it comes before those who are out of patience outside.
+    let clears_junction = |it: &WaitingTurn| !it.priority.is_patient && !it.is_within && waits_within;
     let waits_for = |it: &WaitingTurn| {
         goes_first(zone.precedence, other_side, it.priority, asking)
             && !is_out_before(scene, applicant, hold, it)

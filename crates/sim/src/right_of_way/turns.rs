@@ -6,7 +6,7 @@
 use laneweave_models::yielding::time_to_cover;
 use laneweave_network::{ZoneIndex, ZoneKind};
 
-use crate::junction::need::SPARE_SPACE;
+use crate::junction::need::{SPARE_SPACE, Survey};
 use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
@@ -22,17 +22,17 @@ const APPROACHES: f64 = 1.5;
 /// it [s] (ours). None on the way into a roundabout.
 const COURTESY: f64 = 1.0;
 
-/// The turns that the applicant requests in all zones that it `holds` with its reservation.
+/// The turns that the applicant requests in all zones that it has surveyed.
 pub(crate) fn turns(
     scene: &Scene,
     applicant: &Applicant,
-    holds: &[ZoneReservation],
+    survey: &Survey,
     priority: WaitingPriority,
 ) -> impl Iterator<Item = (ZoneIndex, u8, WaitingTurn)> {
     let enters = scene.reservations.roundabouts.is_entry(applicant.from.chain);
-    let is_within = applicant.is_within_a_zone();
-    let held_up = holds.iter().map(|it| held_up(scene, applicant, it, priority)).fold(0.0, f64::max);
-    holds.iter().map(move |it| {
+    let is_within = applicant.waits_within_a_zone(survey.stop);
+    let held_up = survey.holds.iter().map(|it| held_up(scene, applicant, it, priority)).fold(0.0, f64::max);
+    survey.holds.iter().map(move |it| {
         let begins = held_up + arrival(scene, applicant, it);
         (it.zone, it.side, WaitingTurn { priority, begins, enters, is_within })
     })

@@ -1,10 +1,9 @@
 //! Drivers change lanes never without a reason, soon with a reason, and not back and forth.
 
 use crate::roads::{Road, drivers};
-use laneweave_generate::{Motorway, motorway as draw_motorway};
 use laneweave_models::Style;
 use laneweave_models::change::{
-    Comfort, ConstantHazard, Courtesy, Keeping, LaneChangeModel, Mcdm, Route, Rule, Safety, Speed, Urgency,
+    Comfort, ConstantHazard, Courtesy, Keeping, LaneChangeModel, Mcdm, Route, Rule, Speed, Urgency,
 };
 use laneweave_models::follow::{FollowingModel, Fvdm, Pace};
 use laneweave_models::{Manner, Reading};
@@ -320,78 +319,4 @@ fn v49_a_driver_waits_while_the_gap_is_blocked_and_changes_when_it_opens() {
         assert!(waited > 0);
         assert!(changed as f64 >= 0.95 * SEEDS as f64, "{}: {changed}", style.name);
     }
-}
-
-/// Where the slow lane ends [m].
-const END: f64 = 2500.0;
-/// Limit before the end of the lane, and speed of the passing vehicles [m/s].
-const SPEED: f64 = 18.0;
-/// Number of passing vehicles.
-const PASSING: usize = 60;
-
-/// A truck stands at the end of its lane, beside a dense row of `passing` drivers. The first of them is beside it.
-fn truck_beside(passing: Style) -> World {
-    truck_of(drivers::conservative(), passing)
-}
-
-/// The same, with a driver of the truck who is `waiting` there.
-fn truck_of(waiting: Style, passing: Style) -> World {
-    let plan = Motorway {
-        lanes: 2,
-        lane_drop_at: Some(END),
-        length_m: 4000.0,
-        speed_limit_kmh: SPEED * 3.6,
-        ..Motorway::default()
-    };
-    let network = draw_motorway(&plan).expect("a road").build().expect("a network").network;
-    let nobody = drivers::demand(&network, 0.0, 0.0, &[1.0]);
-    let setup = Setup { step: 0.1, seed: 1, threads: 1 };
-    let mut world =
-        World::new(network, vec![waiting, passing], nobody, setup).expect("the set-up makes sense");
-    let mut put = |chain, x, speed, class, parameters| {
-        world
-            .place(Placement { chain, x, speed, class, parameters, destination: Some(0) })
-            .expect("it fits on the road")
-    };
-    put(ChainIndex(0), END - 18.0, 0.0, Class::Truck, 0);
-    for number in 0..PASSING {
-        put(ChainIndex(1), END - 18.0 - number as f64 * 30.0, SPEED, Class::Car, 1);
-    }
-    world
-}
-
-/// Waiting time of the truck, two minutes at most [s], and the hardest braking in that time [m/s²].
-fn wait(mut world: World) -> (f64, f64) {
-    let mut hardest = 0.0_f64;
-    while world.counts().route_changes == 0 && world.clock().time() < 120.0 {
-        world.step();
-        let decelerations = world.vehicles().map(|it| -f64::from(it.motion.acceleration));
-        hardest = decelerations.fold(hardest, f64::max);
-    }
-    (world.clock().time(), hardest)
-}
-
-#[test]
-fn who_stands_at_the_end_of_its_lane_is_let_in_by_who_is_far_enough_behind_to_brake_gently() {
-    let (time, hardest) = wait(truck_beside(drivers::conservative()));
-    assert!(time < 30.0, "{time} s");
-    assert!(hardest < 2.5, "{hardest} m/s²");
-}
-
-#[test]
-fn where_nobody_lets_others_in_it_waits_for_the_last_to_pass() {
-    let manner = Manner { yield_deceleration: 0.0, ..Manner::default() };
-    let (time, _) = wait(truck_beside(Style { manner, ..drivers::conservative() }));
-    let last_passes = PASSING as f64 * 30.0 / SPEED;
-    assert!(time > last_passes, "{time} s");
-}
-
-#[test]
-fn who_accepts_only_a_long_gap_behind_is_left_one_by_who_lets_it_in() {
-    // More than the 3 m that are left to others.
-    let safety = Safety { min_lag_gap: 6.0, ..Safety::default() };
-    let (time, hardest) =
-        wait(truck_of(Style { safety, ..drivers::conservative() }, drivers::conservative()));
-    assert!(time < 30.0, "{time} s");
-    assert!(hardest < 2.5, "{hardest} m/s²");
 }

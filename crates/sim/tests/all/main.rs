@@ -18,6 +18,7 @@ mod junctions;
 mod keeping;
 mod lanelet_aggregates;
 mod lateral;
+mod let_in;
 mod other_models;
 mod perception;
 mod real_towns;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use laneweave_network::{ChainIndex, Point, Touch, Zone, ZoneKind};
+use laneweave_network::{ChainIndex, Point, Regulations, Touch, Zone, ZoneKind};
 use proptest::prelude::*;
 
 use crate::junctions::drawn::{Lanes, WIDTH, arc, crossing, joined, straight};
@@ -33,6 +33,14 @@ fn lanes_that_cross_at_right_angles_are_in_the_way_for_a_vehicles_width_and_the_
         // 2.70 m to each side of 100 m, in whole samples, and one more.
         assert_eq!((side.chain, side.start, side.end), (ChainIndex(chain), 97.0, 103.0));
     }
+}
+
+#[test]
+fn a_vehicle_is_crossed_from_where_its_front_enters_a_crossing_until_its_rear_has_left_it() {
+    let junctions = crossing(0.0).junctions(&Regulations::default());
+    let is_crossed = |rear, front| junctions.is_crossed(ChainIndex(0), [rear, front], false);
+    assert!(!is_crossed(85.0, 97.0) && is_crossed(85.5, 97.5));
+    assert!(is_crossed(102.5, 114.5) && !is_crossed(103.0, 115.0));
 }
 
 proptest! {
