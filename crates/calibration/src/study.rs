@@ -261,3 +261,69 @@ impl Study {
         self.fit.layout
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prior::Prior;
+    use crate::waiting::{Driver, GAP_TERMS, Spell, logit};
+
+    const NOTHING: PriorWeights = PriorWeights {
+        speed: 0.0,
+        route: 0.0,
+        comfort: 0.0,
+        courtesy: 0.0,
+        plain: [0.0; PLAIN.len()],
+        beta: 1.0,
+        alpha: 0.0,
+    };
+
+    /// Drivers of whom every other one changes again and again, in its first or its second second, and the others
+    /// never.
+    fn two_kinds() -> Design {
+        let mut design = Design { terms: 0, nodes: 1, strata: 0, ..Design::default() };
+        for number in 0..80 {
+            let first = design.gaps.len();
+            let mut spell = |seconds: usize, changed_to: Option<usize>| {
+                let mut row = || {
+                    design.gaps.push([0.0; GAP_TERMS]);
+                    design.places.push([NO_STRATUM; 2]);
+                    Some(design.gaps.len() as u32 - 1)
+                };
+                Spell { seconds: (0..seconds).map(|_| [row(), row()]).collect(), changed_to }
+            };
+            let spells: Vec<Spell> = match number % 2 {
+                0 => (0..6).map(|it| spell(1 + it % 2, Some(it % 2))).collect(),
+                _ => vec![spell(30, None)],
+            };
+            let rows = first..design.gaps.len();
+            design.drivers.push(Driver { chances: vec![1.0], rows, phases: vec![spells] });
+        }
+        design
+    }
+
+    #[test]
+    fn classes_are_looked_for_only_where_drivers_differ() {
+        let design = two_kinds();
+        let layout = Layout::of(&design);
+        let mut prior = Prior { precisions: vec![1.0; layout.count()], ..Prior::none(layout.count()) };
+        prior.means[layout.intercept()] = -3.0;
+        for at in [layout.background(), layout.waiting()] {
+            (prior.means[at], prior.precisions[at]) = (logit(0.001), 100.0);
+        }
+        let is_fixed = vec![false; layout.count()];
+        let without = Assumptions { prior, is_fixed, has_spread: true }.without_spread(&design);
+        let with = Assumptions { has_spread: true, ..without.clone() };
+        let fit = design.fit(&without, &[1.0; 80]);
+        let folds = Folds { repetitions: 1, parts: 3, draws: 1, seed: 1 };
+        let asked = |classes| Asked { prior: NOTHING, draws: 1, folds, classes };
+        let [two, auto] = [Classes::Exactly(2), Classes::Auto].map(asked);
+        // The data show two classes of forty drivers each.
+        let found = mixture(&design, &without, &fit, &two).expect("two classes are asked for");
+        assert!(found.shares.iter().all(|it| (it - 0.5).abs() < 0.05), "{:?}", found.shares);
+        assert!(are_two(&design, &without, &fit, &found, 1));
+        assert!(mixture(&design, &with, &fit, &auto).is_some());
+        // But where drivers are held to have no intercepts of their own, nobody looks for them.
+        assert_eq!(mixture(&design, &without, &fit, &auto), None);
+    }
+}

@@ -143,3 +143,107 @@ impl Watch<'_> {
             && scene.ahead(there).is_some_and(|it| change.stays_behind(motion.speed, it))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_models::Style;
+    use laneweave_models::change::{LaneChangeModel, Mcdm};
+    use laneweave_models::follow::{FollowingModel, Idm};
+    use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
+    use laneweave_recorded::Assumed;
+    use laneweave_recordings::{Recording, RoadUser, State, Track};
+    use laneweave_sim::Navigator;
+
+    use super::*;
+
+    fn style() -> Style {
+        Style {
+            name: "usual".into(),
+            description: String::new(),
+            speed_factor: 1.0,
+            follow: FollowingModel::Idm(Idm::default()),
+            change: LaneChangeModel::Mcdm(Mcdm::default()),
+            safety: Default::default(),
+            attention: Default::default(),
+            manner: Default::default(),
+            yielding: Default::default(),
+            guidance: Default::default(),
+        }
+    }
+
+    /// A lanelet 3.5 m wide between two points of its centre line, with a limit [m/s].
+    fn lanelet(id: i64, [from, to]: [[f64; 2]; 2], limit: f64) -> Lanelet {
+        let line = |aside: f64| {
+            Polyline::new([from, to].map(|[x, y]| Point::new(x, y + aside, 0.0))).expect("two points")
+        };
+        Lanelet::alone(id, [1.75, -1.75, 0.0].map(line), limit)
+    }
+
+    /// A road with 30 m/s on its first 200 m, and with 15 m/s then.
+    fn road_that_gets_slower() -> Network {
+        let mut lanelets = vec![
+            lanelet(1, [[0.0, 0.0], [200.0, 0.0]], 30.0),
+            lanelet(2, [[200.0, 0.0], [1000.0, 0.0]], 15.0),
+        ];
+        lanelets[0].following = vec![LaneletIndex(1)];
+        Network::new(lanelets, DrivingSide::Right).expect("it is a road")
+    }
+
+    #[test]
+    fn a_lower_limit_counts_as_soon_as_the_driver_comes_there_within_eight_seconds() {
+        let network = road_that_gets_slower();
+        // Its front is at 10 m, and a second later 10 m on.
+        let state = |frame| State { frame, x: 7.75 + frame as f64, y: 0.0, speed: 10.0, heading: 0.0 };
+        let states = (0..300).map(state).collect();
+        let track = Track { id: 1, class: RoadUser::Car, length: 4.5, width: 1.8, states };
+        let recording = Recording { step: 0.1, tracks: vec![track], ..Recording::default() };
+        let matched = Matched::new(&network, &recording);
+        let (navigator, styles) = (Navigator::new(&network), [style()]);
+        let assume = |_| Assumed { parameters: 0, speed_factor: 1.0 };
+        let replay = Replay::new(&matched, &[], &navigator, &styles, assume).expect("it is a driver");
+        let watch = Watch { matched: &matched, in_view: InView::of(&matched) };
+        let is_plain = |second: i64| {
+            let frame = replay.frame(10 * second);
+            watch.is_plain(&frame.scene(), frame.spot(1).expect("it is seen"))
+        };
+        // It looks 80 m ahead: from 110 m on it sees the place at 190 m, and from 130 m on that at 210 m.
+        assert!(is_plain(0) && is_plain(10));
+        assert!(!is_plain(12) && !is_plain(18));
+        // Once it is there, the limit is no lower ahead.
+        assert!(is_plain(20));
+    }
+
+    /// A lane of 400 m, the last 100 m of which two lanes share, beside a road that goes on; and its first chain.
+    fn shared_lane_that_ends() -> (Network, ChainIndex) {
+        let mut lanelets = vec![
+            lanelet(1, [[0.0, 3.5], [300.0, 3.5]], 30.0),
+            lanelet(2, [[300.0, 3.5], [400.0, 3.5]], 30.0),
+            lanelet(3, [[400.0, 3.5], [900.0, 3.5]], 30.0),
+            lanelet(4, [[0.0, 0.0], [300.0, 0.0]], 30.0),
+            lanelet(5, [[0.0, -40.0], [300.0, 0.0]], 30.0),
+            lanelet(6, [[300.0, 0.0], [400.0, 0.0]], 30.0),
+        ];
+        for (from, to) in [(0, 1), (1, 2), (3, 5), (4, 5)] {
+            lanelets[from].following = vec![LaneletIndex(to)];
+        }
+        (lanelets[5].left, lanelets[1].right) = (Some(LaneletIndex(1)), Some(LaneletIndex(5)));
+        let network = Network::new(lanelets, DrivingSide::Right).expect("it is a road");
+        let first = network.start_of(LaneletIndex(3)).chain;
+        (network, first)
+    }
+
+    #[test]
+    fn a_lane_that_goes_on_only_into_one_that_ends_ends_with_it() {
+        let (network, first) = shared_lane_that_ends();
+        let recording = Recording { step: 0.1, ..Recording::default() };
+        let matched = Matched::new(&network, &recording);
+        let watch = Watch { matched: &matched, in_view: InView::of(&matched) };
+        let last = network.chain(first).following[0];
+        assert!(network.chain(last).is_lane_drop() && !network.chain(first).is_lane_drop());
+        // 300 m are left from 100 m on, and 60 m from 40 m on in the chain that ends.
+        assert!(watch.ends_within(first, 100.0, 301.0) && !watch.ends_within(first, 100.0, 299.0));
+        assert!(watch.ends_within(last, 40.0, 61.0) && !watch.ends_within(last, 40.0, 59.0));
+        // The road beside goes on.
+        assert!(!watch.ends_within(network.start_of(LaneletIndex(0)).chain, 100.0, 1e6));
+    }
+}
