@@ -28,3 +28,46 @@ pub(crate) fn wish(me: &Me, requests: &[Request], concerns: &[Concern]) -> Optio
 pub(crate) fn asks(requests: &[Request], id: VehicleId, what: impl Fn(&Ask) -> bool) -> bool {
     requests.iter().any(|it| it.id == id && what(&it.ask))
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_generate::{Motorway, motorway};
+    use laneweave_network::{ChainIndex, Position};
+
+    use super::*;
+    use crate::route::navigate::Navigator;
+    use crate::state::some_style::some_style;
+    use crate::state::vehicle::Class;
+    use crate::view::snapshot::{Across, Seen, Snapshot};
+
+    #[test]
+    fn who_changes_lanes_wants_to_go_on_until_it_asks_itself_to_abort() {
+        let road = Motorway { lanes: 2, ..Motorway::default() };
+        let network = motorway(&road).unwrap().build().unwrap().network;
+        let (navigator, styles) = (Navigator::new(&network), [some_style()]);
+        let slow = network.chains.iter().position(|it| it.beside(Side::Left, 100.0).is_some()).unwrap();
+        let chain = ChainIndex(slow as u32);
+        let beside = network.chain(chain).beside(Side::Left, 100.0).unwrap();
+        let other = Position { chain: beside.chain, x: beside.across(100.0) };
+        let changing = Seen {
+            id: 1,
+            chain,
+            x: 100.0,
+            speed: 20.0,
+            acceleration: 0.0,
+            length: 4.5,
+            class: Class::Car,
+            parameters: 0,
+            desired: 30.0,
+            destination: None,
+            change: Some(Across { side: Side::Left, progress: 0.3, other }),
+        };
+        let snapshot = Snapshot::new(&network, [changing]);
+        let scene = snapshot.scene(&network, &navigator, &styles);
+        let me = Me::at(&scene, snapshot.spot(1).unwrap());
+        let abort = |id| Request { urgency: 0.0, id, chain, x: 100.0, ask: Ask::Abort };
+        assert_eq!(wish(&me, &[], &[]), Some(Side::Left));
+        assert_eq!(wish(&me, &[abort(2)], &[]), Some(Side::Left));
+        assert_eq!(wish(&me, &[abort(2), abort(1)], &[]), None);
+    }
+}

@@ -54,3 +54,33 @@ impl<'a> Applicant<'a> {
         time_to_cover(distance, self.speed, self.desired)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_generate::{Motorway, motorway};
+    use laneweave_network::ZoneIndex;
+
+    use super::*;
+    use crate::junction::waiting_priority::ZoneReservation;
+    use crate::right_of_way::survey::tests::standing;
+    use crate::route::navigate::Navigator;
+    use crate::state::some_style::some_style;
+    use crate::view::snapshot::Snapshot;
+
+    #[test]
+    fn a_vehicle_is_within_a_zone_once_its_front_is_beyond_where_the_zone_begins() {
+        let network = motorway(&Motorway::default()).unwrap().build().unwrap().network;
+        let (navigator, styles) = (Navigator::new(&network), [some_style()]);
+        let snapshot = Snapshot::new(&network, [standing()]);
+        let scene = snapshot.scene(&network, &navigator, &styles);
+        let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
+        assert!(!applicant.is_within_a_zone());
+        let is_within = |travelled: f64| {
+            let mut own = Reservation::default();
+            own.travelled = travelled;
+            own.holds = vec![ZoneReservation { zone: ZoneIndex(0), side: 0, enter: 20.0, leave: 40.0 }];
+            Applicant { reservation: Some(&own), ..applicant }.is_within_a_zone()
+        };
+        assert!(!is_within(19.9) && !is_within(20.0) && is_within(20.1));
+    }
+}

@@ -258,3 +258,45 @@ fn accepts_lag(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, ask
         _ => true,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_generate::own_maps;
+    use laneweave_network::ZoneIndex;
+
+    use super::*;
+    use crate::right_of_way::survey::tests::{regulated, standing};
+    use crate::route::navigate::Navigator;
+    use crate::state::some_style::some_style;
+    use crate::view::snapshot::Snapshot;
+
+    #[test]
+    fn who_is_on_its_way_through_a_merge_goes_on_through_it_and_through_no_other() {
+        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
+        let network = regulated(&drawing);
+        let (navigator, styles) = (Navigator::new(&network), [some_style()]);
+        let snapshot = Snapshot::new(&network, [standing()]);
+        let scene = snapshot.scene(&network, &navigator, &styles);
+        let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
+        let zones = (0..network.junctions.zones.len() as u32).map(ZoneIndex);
+        let merges: Vec<ZoneIndex> = zones
+            .filter(|it| matches!(network.junctions.zones[it.at()].kind, ZoneKind::Merging(_)))
+            .collect();
+        let hold = |zone: ZoneIndex| ZoneReservation { zone, side: 0, enter: 10.0, leave: 20.0 };
+        let mut others = 0;
+        for held in &merges {
+            let mut own = Reservation::default();
+            own.holds = vec![hold(*held)];
+            let applicant = Applicant { reservation: Some(&own), ..applicant };
+            assert!(goes_on_through(&scene, &applicant, &hold(*held)), "{held:?}");
+            let lanes = |it: &ZoneIndex| network.junctions.zones[it.at()].sides.map(|it| it.chain);
+            for other in merges.iter().filter(|it| lanes(it) != lanes(held)) {
+                assert!(!goes_on_through(&scene, &applicant, &hold(*other)), "{held:?} {other:?}");
+                others += 1;
+            }
+        }
+        assert!(others > 0, "{} merges", merges.len());
+        // Without a reservation it is not on its way at all.
+        assert!(!goes_on_through(&scene, &applicant, &hold(merges[0])));
+    }
+}

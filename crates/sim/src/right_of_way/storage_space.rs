@@ -110,3 +110,34 @@ fn moves_up(scene: &Scene, from: Viewpoint, spot: Spot) -> bool {
     let stays = !driver.is_shadow && driver.phase == Phase::Cruises && is_alone();
     stays && parts(scene, from, spot, 0.0) == f64::INFINITY
 }
+
+#[cfg(test)]
+mod tests {
+    use laneweave_generate::{Motorway, motorway};
+    use laneweave_network::LaneletIndex;
+
+    use super::*;
+    use crate::right_of_way::survey::tests::standing;
+    use crate::route::navigate::Navigator;
+    use crate::state::some_style::some_style;
+    use crate::view::snapshot::{Seen, Snapshot};
+
+    /// Whether a car 60 m ahead counts as one that moves up, on a road with so many lanes.
+    fn is_expected_to_move_up(lanes: usize) -> bool {
+        let road = Motorway { lanes, length_m: 1000.0, ..Motorway::default() };
+        let network = motorway(&road).unwrap().build().unwrap().network;
+        let (navigator, styles) = (Navigator::new(&network), [some_style()]);
+        let chain = network.start_of(LaneletIndex(0)).chain;
+        let cars = [(1, 40.0), (2, 100.0)].map(|(id, x)| Seen { id, chain, x, ..standing() });
+        let snapshot = Snapshot::new(&network, cars);
+        let scene = snapshot.scene(&network, &navigator, &styles);
+        let [from, ahead] = [1, 2].map(|it| snapshot.spot(it).unwrap());
+        moves_up(&scene, scene.viewpoint(from), ahead)
+    }
+
+    #[test]
+    fn the_vehicle_ahead_counts_as_moving_up_only_where_no_lane_lies_beside_it() {
+        assert!(is_expected_to_move_up(1));
+        assert!(!is_expected_to_move_up(2));
+    }
+}

@@ -318,4 +318,4 @@ pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

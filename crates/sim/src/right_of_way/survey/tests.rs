@@ -7,12 +7,13 @@ use laneweave_network::{
 
 use super::*;
 use crate::route::navigate::Navigator;
+use crate::route::place::{InnerPlace, Place as TripEnd};
 use crate::state::some_style::some_style;
 use crate::state::vehicle::Class;
 use crate::view::snapshot::{Seen, Snapshot};
 
 /// A standing truck.
-fn standing() -> Seen {
+pub(crate) fn standing() -> Seen {
     Seen {
         id: 1,
         chain: ChainIndex(0),
@@ -79,7 +80,7 @@ fn survey_all_over(network: &Network, mut visit: impl FnMut(&Scene, &Applicant, 
     }
 }
 
-fn regulated(drawing: &Drawing) -> Network {
+pub(crate) fn regulated(drawing: &Drawing) -> Network {
     let map = drawing.build().unwrap();
     let rules = regulations(&map);
     map.network.regulated(&rules)
@@ -144,4 +145,47 @@ fn a_reservation_leads_over_every_line_before_which_the_rear_would_still_stand_i
             }
         });
     }
+}
+
+#[test]
+fn the_next_place_to_stop_is_the_nearest_of_those_that_are_still_ahead() {
+    let network = two_crossings(64.0);
+    let navigator = Navigator::new(&network);
+    let chain = network.start_of(LaneletIndex(0)).chain;
+    let snapshot = Snapshot::new(&network, [Seen { chain, x: 10.0, ..standing() }]);
+    let styles = [some_style()];
+    let scene = snapshot.scene(&network, &navigator, &styles);
+    let leg = chain_at(&scene, scene.viewpoint(snapshot.spot(1).unwrap()), 0.0);
+    let next = |distance: f64| next_place(&scene, leg, distance, Class::Truck);
+    // The roads, 3 m wide, cross 40 and 65 m ahead, and the line lies 54 m ahead.
+    assert!((35.0..37.6).contains(&next(0.0)), "{}", next(0.0));
+    assert!((next(45.0) - (54.0 - BEFORE_A_LINE)).abs() < 1e-9, "{}", next(45.0));
+    assert!((60.0..62.6).contains(&next(54.0)), "{}", next(54.0));
+    assert_eq!(next(65.0), f64::INFINITY);
+}
+
+#[test]
+fn nobody_has_to_stop_for_what_lies_beyond_the_end_of_its_trip() {
+    let network = two_crossings(64.0);
+    let chain = network.start_of(LaneletIndex(0)).chain;
+    // One trip ends between the line at 64 m and the road at 75 m, and one beyond that.
+    let ends = [67.0, 150.0].map(|station| TripEnd::Inside(InnerPlace { id: 1, chain, station }));
+    let navigator = Navigator::towards(&network, &ends);
+    let styles = [some_style()];
+    let stop_of = |x: f64, destination: u16| {
+        let seen = Seen { chain, x, destination: Some(destination), ..standing() };
+        let snapshot = Snapshot::new(&network, [seen]);
+        let scene = snapshot.scene(&network, &navigator, &styles);
+        let from = scene.viewpoint(snapshot.spot(1).unwrap());
+        let stop = stop_ahead(&scene, from, 0.0, 40.0).map(|it| x + it.stop);
+        assert_eq!(is_place_ahead(&scene, from, 40.0), stop.is_some());
+        stop
+    };
+    for destination in [0, 1] {
+        let line = stop_of(60.0, destination).expect("the line is ahead");
+        assert!((line - (64.0 - BEFORE_A_LINE)).abs() < 1e-9, "{line}");
+    }
+    assert_eq!(stop_of(65.0, 0), None);
+    let crossing = stop_of(65.0, 1).expect("it has to pass the road");
+    assert!((70.0..72.6).contains(&crossing), "{crossing}");
 }
