@@ -68,19 +68,20 @@ mod tests {
     use crate::view::snapshot::Snapshot;
 
     #[test]
-    fn a_vehicle_is_within_a_zone_once_its_front_is_beyond_where_the_zone_begins() {
+    fn a_vehicle_waits_within_a_zone_that_it_has_entered_and_would_not_have_left_where_it_stops() {
         let network = motorway(&Motorway::default()).unwrap().build().unwrap().network;
         let (navigator, styles) = (Navigator::new(&network), [some_style()]);
         let snapshot = Snapshot::new(&network, [standing()]);
         let scene = snapshot.scene(&network, &navigator, &styles);
         let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
-        assert!(!applicant.is_within_a_zone());
-        let is_within = |travelled: f64| {
+        assert!(!applicant.waits_within_a_zone(0.0));
+        let waits_within = |travelled: f64, stop: f64| {
             let mut own = Reservation::default();
             own.travelled = travelled;
             own.holds = vec![ZoneReservation { zone: ZoneIndex(0), side: 0, enter: 20.0, leave: 40.0 }];
-            Applicant { reservation: Some(&own), ..applicant }.is_within_a_zone()
+            Applicant { reservation: Some(&own), ..applicant }.waits_within_a_zone(stop)
         };
-        assert!(!is_within(19.9) && !is_within(20.0) && is_within(20.1));
+        assert!(!waits_within(19.9, 0.0) && !waits_within(20.0, 0.0) && waits_within(20.1, 0.0));
+        assert!(waits_within(30.0, 9.9) && !waits_within(30.0, 10.0));
     }
 }
