@@ -94,6 +94,28 @@ fn rules_that_traffic_does_not_use_are_named() {
 }
 
 #[test]
+fn signs_lights_and_stop_lines_of_no_rule_are_named() {
+    let way = |id: i64, kind: &str| {
+        format!("<way id='{id}'><nd ref='51'/><nd ref='52'/>{}</way>", tag("type", kind))
+    };
+    are_named(&[
+        (
+            way(91, "stop_line") + &way(92, "stop_line"),
+            "way 91: ways of the type stop_line, 2 in all: no regulatory element refers to it",
+        ),
+        (way(91, "traffic_light"), "ways of the type traffic_light, 1 in all: no regulatory element"),
+        (way(91, "traffic_sign"), "ways of the type traffic_sign, 1 in all: no regulatory element"),
+    ]);
+    let used = "<relation id='81'><member type='way' ref='91' role='ref_line'/>".to_owned()
+        + &tag("type", "regulatory_element")
+        + &tag("subtype", "traffic_light")
+        + "</relation>";
+    let map =
+        lanelet2::read(road(&(way(91, "stop_line") + &used)).as_bytes(), &ReadOptions::default()).unwrap();
+    assert!(told(&map.problems).iter().all(|it| !it.contains("way 91")), "{:?}", map.problems);
+}
+
+#[test]
 fn lanelets_and_tags_that_traffic_does_not_use_are_named() {
     let centre = "<member type='way' ref='32' role='centerline'/>";
     are_named(&[

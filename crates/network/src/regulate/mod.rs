@@ -105,7 +105,8 @@ impl Network {
     }
 }
 
-/// The junctions of `network` with these `contacts` under `regulations`, and where branches of forks part. Lights without a program get one.
+/// The junctions of `network` with these `contacts` under `regulations`, and where branches of forks part. Lights
+/// without a program get one.
 fn junctions(network: &Network, contacts: &Contacts, regulations: &Regulations) -> (Junctions, Vec<Parting>) {
     let kinship = Kinship::of(network);
     let (mut zones, partings) = zones::zones(&kinship, &contacts.of_pairs);

@@ -1,5 +1,7 @@
 //! What a Lanelet2 map holds and traffic does not use.
 
+use std::collections::HashSet;
+
 use super::osm::{Document, Relation, Tags};
 use super::rules::{self, classes, is_known_participant};
 use crate::rule::{Rule, RuleKind};
@@ -26,6 +28,9 @@ const OTHER_TAGS: [&str; 9] = [
 
 /// Tags of lanelets that say that they lie above or below others.
 const LEVELS: [&str; 4] = ["layer", "level", "bridge", "tunnel"];
+
+/// Types of ways that show a rule.
+const SHOWN: [&str; 3] = ["stop_line", "traffic_light", "traffic_sign"];
 
 /// Roles of members that are read.
 const ROLES_OF_LANELETS: [&str; 3] = ["left", "right", "regulatory_element"];
@@ -72,6 +77,10 @@ const LEVEL: Meaning = (
 );
 const UNKNOWN_ROLE: Meaning =
     ("members in this role are not read", "leave them, or give them a role that is read");
+const NO_RULE: Meaning = (
+    "no regulatory element refers to it, so no driver obeys it",
+    "add it to a regulatory element, and this to the lanelets whose drivers obey it",
+);
 const OWN_CENTRE: Meaning =
     ("the centre line is computed from the borders instead", "correct the borders if it lies elsewhere");
 
@@ -127,8 +136,25 @@ pub(super) fn unused(document: &Document, rules: &[Rule]) -> Unused {
             unused.add(&format!("{kind}s with the tag {key}"), (kind, id, line as usize), STREETS);
         }
     }
+    add_ways_of_no_rule(&mut unused, document);
     rules.iter().for_each(|it| add_rule(&mut unused, it));
     unused
+}
+
+/// Adds the signs, lights and stop lines to which no rule refers.
+fn add_ways_of_no_rule(unused: &mut Unused, document: &Document) {
+    let rules = document
+        .relations
+        .iter()
+        .filter(|it| document.tags(it.tags).get("type") == Some("regulatory_element"));
+    let members = rules.flat_map(|it| document.members_of(it));
+    let of_rules: HashSet<i64> =
+        members.filter(|it| document.get(it.kind) == "way").map(|it| it.id).collect();
+    for way in document.ways.iter().filter(|it| !of_rules.contains(&it.id)) {
+        if let Some(kind) = document.tags(way.tags).get("type").filter(|it| SHOWN.contains(it)) {
+            unused.add(&format!("ways of the type {kind}"), ("way", way.id, way.line as usize), NO_RULE);
+        }
+    }
 }
 
 /// What a relation of this type is called.
