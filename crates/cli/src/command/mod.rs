@@ -113,14 +113,16 @@ enum Command {
 }
 
 /// The command, whose numbers and places may begin with a minus sign, so that the message about a wrong one names its
-/// option. A name or path may not: there an option would be taken for it.
+/// option. A name or path may not: there an option would be taken for it, as it would for a value that may be left out.
 fn with_negative_values(command: clap::Command) -> clap::Command {
     let named = command.mut_args(|it| {
         let parser = it.get_value_parser();
         let is_text =
             [TypeId::of::<PathBuf>(), TypeId::of::<String>()].iter().any(|text| parser.type_id() == *text);
         let takes_words = is_text || parser.possible_values().is_some();
-        let may_be_negative = !it.is_positional() && it.get_action().takes_values() && !takes_words;
+        let has_value =
+            it.get_action().takes_values() && it.get_num_args().is_none_or(|it| it.min_values() > 0);
+        let may_be_negative = !it.is_positional() && has_value && !takes_words;
         if may_be_negative { it.allow_hyphen_values(true) } else { it }
     });
     named.mut_subcommands(with_negative_values)

@@ -341,7 +341,7 @@ fn a_number_below_zero_is_refused_with_the_name_of_its_option() {
     let folder = Folder::new();
     for (line, option) in [
         ("explain out --vehicle -3", "--vehicle <ID>"),
-        ("explain out --vehicle 3 --time -inf", "--time"),
+        ("explain out --vehicle 3 --time -x", "--time <S>"),
         ("routes MAPS/ramps.osm 1 2 --most -1", "--most <N>"),
         ("compare MAPS/ramps.osm --seeds -0.0", "--seeds <N>"),
         ("view --port -1", "--port <PORT>"),
@@ -352,10 +352,9 @@ fn a_number_below_zero_is_refused_with_the_name_of_its_option() {
     }
     let west = "render MAPS/ramps.osm --camera -100,0,300 --size 64x64 --until 0.5 --out frames";
     assert_eq!(folder.laneweave(west).code(), 0);
-    // An option is not taken for a path.
-    assert!(
-        answer(&folder, "run MAPS/ramps.osm --out --quiet").contains("a value is required for '--out <DIR>'")
-    );
+    // An option is not taken for a path, nor for a value that may be left out.
+    assert!(answer(&folder, "run m.osm --out --quiet").contains("a value is required for '--out <DIR>'"));
+    assert!(answer(&folder, "fit t.csv --judge --typo").contains("unexpected argument '--typo'"));
 }
 
 #[test]
