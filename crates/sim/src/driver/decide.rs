@@ -71,8 +71,8 @@ pub(crate) fn go_or_ask(scene: &Scene, moment: Moment, spot: Spot, outbox: &mut 
         Ok(()) => outbox.requests.push(request(Ask::Change)),
         Err(Hindrance::InReservation | Hindrance::RequestedBefore | Hindrance::NotAllowed) => {}
         Err(_) if f64::from(lane_change.urgency) < asks_from => {}
-        Err(_) => {
-            if let Some(found) = gap.who_can_let_in(scene, spot, moment.clock) {
+        Err(hindrance) => {
+            if let Some(found) = gap.who_can_let_in(scene, spot, &hindrance, moment.clock) {
                 let behind = scene.motion(found.spot);
                 let room = room_to_yield(scene, spot, found.spot);
                 outbox.requests.push(request(Ask::LetIn {

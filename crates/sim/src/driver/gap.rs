@@ -291,20 +291,31 @@ impl Gap {
 
     /// The first follower that can open a gap by braking no harder than it does to let others in. Those nearer drive
     /// past.
-    pub(crate) fn who_can_let_in(&self, scene: &Scene, spot: Spot, clock: Clock) -> Option<Found> {
+    pub(crate) fn who_can_let_in(
+        &self,
+        scene: &Scene,
+        spot: Spot,
+        hindrance: &Hindrance,
+        clock: Clock,
+    ) -> Option<Found> {
         /// This many followers see the signal.
         const SEE_IT: usize = 10;
         let motion = scene.motion(spot);
         let room = room_to_let_in(scene, spot);
         let safety = scene.style(spot).safety.of_follower();
+        let is_missing_a_gap = matches!(hindrance, Hindrance::Ahead(..) | Hindrance::Behind(..));
+        let lane = scene.network.chain(spot.chain);
+        let comes_to_its_end = is_missing_a_gap && lane.ends_for.has(scene.driver(spot).class);
         let can = |it: &Found| {
             let (behind, driver) = (scene.motion(it.spot), scene.driver(it.spot));
             let gentle = scene.style_of(driver).manner.yield_deceleration;
             let gap = it.distance - f64::from(motion.length);
             // A vehicle beside a standing one, or right behind it, cannot open a gap for it; but one that has come as
-            // near as it may holds its gap open.
+            // near as it may holds its gap open for one whose lane ends.
             let is_near = gap < room && motion.speed <= STANDSTILL;
-            let is_beside = is_near && self.behind(scene, spot, *it).accepted(&safety, clock.dt).is_err();
+            let holds_open =
+                || comes_to_its_end && self.behind(scene, spot, *it).accepted(&safety, clock.dt).is_ok();
+            let is_beside = is_near && !holds_open();
             let left = (gap - room_to_yield(scene, spot, it.spot)).max(0.1);
             let needed = deceleration_to_avoid(left, behind.speed, motion.speed);
             // A driver with a reservation lets in nobody: no vehicle may come in front of it.
@@ -327,9 +338,12 @@ impl Gap {
             |it: &Found| scene.has_reservation(it.spot, it.distance - f64::from(motion.length));
         let rear = self.x - f64::from(motion.length);
         let is_in_fork = rear < scene.network.chain(self.chain).fork_clearance;
+        // Around a roundabout one crossing follows the other: a truck would find no such place.
+        let junctions = &scene.network.junctions;
+        let is_long = scene.driver(spot).class.is_long();
         let is_crossed = || {
-            let is_long = scene.driver(spot).class.is_long();
-            scene.network.junctions.is_crossed(self.chain, [rear, self.x], is_long)
+            !junctions.is_in_roundabout(self.chain)
+                && junctions.is_crossed(self.chain, [rear, self.x], is_long)
         };
         !scene.takes_kept_space(self.chain, self.x, rear)
             && !is_in_fork

@@ -40,12 +40,13 @@ impl<'a> Applicant<'a> {
         }
     }
 
-    /// Whether its vehicle is within a zone, and would still be if it stopped after `stop` [m].
-    pub(crate) fn waits_within_a_zone(&self, stop: f64) -> bool {
+    /// Whether its vehicle is within a zone, and would still be if it stopped after `stop` [m]. Around a roundabout
+    /// wherever it stops is in the way of others.
+    pub(crate) fn waits_within_a_zone(&self, scene: &Scene, stop: f64) -> bool {
+        let is_round = scene.reservations.roundabouts.touches(self.from.chain);
         self.reservation.is_some_and(|own| {
-            let is_within =
-                |it: &ZoneReservation| it.enter < own.travelled && own.travelled + stop < it.leave;
-            own.holds.iter().any(is_within)
+            let stays = |it: &ZoneReservation| is_round || own.travelled + stop < it.leave;
+            own.holds.iter().any(|it| it.enter < own.travelled && stays(it))
         })
     }
 
@@ -74,12 +75,12 @@ mod tests {
         let snapshot = Snapshot::new(&network, [standing()]);
         let scene = snapshot.scene(&network, &navigator, &styles);
         let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
-        assert!(!applicant.waits_within_a_zone(0.0));
+        assert!(!applicant.waits_within_a_zone(&scene, 0.0));
         let waits_within = |travelled: f64, stop: f64| {
             let mut own = Reservation::default();
             own.travelled = travelled;
             own.holds = vec![ZoneReservation { zone: ZoneIndex(0), side: 0, enter: 20.0, leave: 40.0 }];
-            Applicant { reservation: Some(&own), ..applicant }.waits_within_a_zone(stop)
+            Applicant { reservation: Some(&own), ..applicant }.waits_within_a_zone(&scene, stop)
         };
         assert!(!waits_within(19.9, 0.0) && !waits_within(20.0, 0.0) && waits_within(20.1, 0.0));
         assert!(waits_within(30.0, 9.9) && !waits_within(30.0, 10.0));

@@ -112,7 +112,7 @@ pub(crate) fn may_pass(
     if survey.holds.iter().any(|hold| is_blocked(scene, applicant, hold, asking)) {
         return Err(PassHindrance::Blocked);
     }
-    let waits_within = applicant.waits_within_a_zone(survey.stop);
+    let waits_within = applicant.waits_within_a_zone(scene, survey.stop);
     if survey.holds.iter().all(|hold| may_hold(scene, applicant, hold, asking, waits_within)) {
         Ok(())
     } else {

@@ -30,7 +30,7 @@ pub(crate) fn turns(
     priority: WaitingPriority,
 ) -> impl Iterator<Item = (ZoneIndex, u8, WaitingTurn)> {
     let enters = scene.reservations.roundabouts.is_entry(applicant.from.chain);
-    let is_within = applicant.waits_within_a_zone(survey.stop);
+    let is_within = applicant.waits_within_a_zone(scene, survey.stop);
     let held_up = survey.holds.iter().map(|it| held_up(scene, applicant, it, priority)).fold(0.0, f64::max);
     survey.holds.iter().map(move |it| {
         let begins = held_up + arrival(scene, applicant, it);
