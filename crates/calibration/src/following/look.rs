@@ -146,30 +146,13 @@ impl Watch<'_> {
 
 #[cfg(test)]
 mod tests {
-    use laneweave_models::Style;
-    use laneweave_models::change::{LaneChangeModel, Mcdm};
-    use laneweave_models::follow::{FollowingModel, Idm};
     use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline};
     use laneweave_recorded::Assumed;
     use laneweave_recordings::{Recording, RoadUser, State, Track};
     use laneweave_sim::Navigator;
 
+    use super::super::tests::style;
     use super::*;
-
-    fn style() -> Style {
-        Style {
-            name: "usual".into(),
-            description: String::new(),
-            speed_factor: 1.0,
-            follow: FollowingModel::Idm(Idm::default()),
-            change: LaneChangeModel::Mcdm(Mcdm::default()),
-            safety: Default::default(),
-            attention: Default::default(),
-            manner: Default::default(),
-            yielding: Default::default(),
-            guidance: Default::default(),
-        }
-    }
 
     /// A lanelet 3.5 m wide between two points of its centre line, with a limit [m/s].
     fn lanelet(id: i64, [from, to]: [[f64; 2]; 2], limit: f64) -> Lanelet {

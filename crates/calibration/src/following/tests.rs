@@ -15,7 +15,7 @@ const TRUE: IdmPlus =
     IdmPlus { acceleration: 1.5, deceleration: 1.6, time_gap: 1.0, jam_gap: 2.5, exponent: 4.0 };
 
 /// The prior style: IDM+ with its usual numbers.
-fn style() -> Style {
+pub(super) fn style() -> Style {
     Style {
         name: "prior".into(),
         description: String::new(),

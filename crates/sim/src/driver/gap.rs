@@ -289,8 +289,8 @@ impl Gap {
         scene.reservations.requested_before(section, priority) > 0.0
     }
 
-    /// The first follower that can open a gap by braking no harder than it does to let others in. Those nearer drive
-    /// past.
+    /// The first follower that can open a gap by braking no harder than it does to let others in, for the driver at
+    /// `spot` whom this `hindrance` keeps from the change. Those nearer drive past.
     pub(crate) fn who_can_let_in(
         &self,
         scene: &Scene,
