@@ -96,7 +96,8 @@ fn starves(scene: &Scene, asking: Asking, survey: &Survey) -> bool {
 }
 
 /// Requests space for the driver at `spot`, who has surveyed its route, and has met a `hindrance`. A driver who enters
-/// a roundabout gets a waiting priority there instead, if that is full, and does not stop its traffic.
+/// a roundabout does not stop the traffic on it, but gets a waiting priority there instead: those who come later to
+/// any entry let it go first, whether the roundabout is full, or there is no space where this driver enters it.
 fn request_space(
     scene: &Scene,
     spot: Spot,
@@ -109,7 +110,7 @@ fn request_space(
     if !scene.reservations.roundabouts.is_entered(way) {
         let sections = sections(scene, scene.viewpoint(spot), survey);
         space_requests.extend(sections.map(|it| (it, priority, survey.needed)));
-    } else if hindrance == PassHindrance::Roundabout {
+    } else if hindrance != PassHindrance::Light {
         roundabouts.push((way, priority));
     }
 }
@@ -130,4 +131,44 @@ fn survey_at(
 ) -> bool {
     let granted = applicant.reservation.map_or(0.0, |it| it.left().max(0.0));
     survey(scene, applicant, [granted, sight(scene, applicant.from.chain, applicant.speed)], is_held, out)
+}
+
+#[cfg(test)]
+mod tests {
+    use laneweave_generate::own_maps;
+
+    use super::*;
+    use crate::right_of_way::survey::tests::{regulated, standing};
+    use crate::route::navigate::Navigator;
+    use crate::state::some_style::some_style;
+    use crate::view::snapshot::{Seen, Snapshot};
+
+    #[test]
+    fn who_waits_to_enter_a_roundabout_gets_a_priority_there_and_none_while_the_light_is_red() {
+        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "roundabout.osm").unwrap();
+        let network = regulated(&drawing);
+        let (navigator, styles) = (Navigator::new(&network), [some_style()]);
+        // It stands at the line of an entry.
+        let entry = network.entrances[0].chains[0];
+        let line = network.junctions.on(entry).stops.last().unwrap().station;
+        let truck = Seen { chain: entry, x: line - 1.0, destination: Some(0), ..standing() };
+        let snapshot = Snapshot::new(&network, [truck]);
+        let (scene, spot) = (snapshot.scene(&network, &navigator, &styles), snapshot.spot(1).unwrap());
+        let mut outbox = Outbox::default();
+        assert!(surveyed(&scene, &Applicant::at(&scene, spot), &mut outbox.survey));
+        let way = [entry, outbox.survey.section.chain];
+        assert!(scene.reservations.roundabouts.is_entered(way), "{way:?}");
+        let priority = WaitingPriority { is_patient: false, since: 7, id: 1, is_long: true };
+        for (hindrance, noted) in
+            [(PassHindrance::Space, 1), (PassHindrance::Roundabout, 1), (PassHindrance::Light, 0)]
+        {
+            request_space(&scene, spot, priority, hindrance, &mut outbox);
+            assert_eq!(
+                outbox.roundabouts.drain(..).collect::<Vec<_>>(),
+                vec![(way, priority); noted],
+                "{hindrance:?}"
+            );
+            assert!(outbox.space_requests.is_empty());
+        }
+    }
 }

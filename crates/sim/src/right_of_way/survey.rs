@@ -318,4 +318,4 @@ pub(crate) fn parts(scene: &Scene, from: Viewpoint, spot: Spot, base: f64) -> f6
 }
 
 #[cfg(test)]
-pub(super) mod tests;
+pub(crate) mod tests;
