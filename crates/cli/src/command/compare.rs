@@ -15,6 +15,7 @@ use laneweave_studies::compare::{Comparison, MEASURES, compare, page};
 
 use super::check::Limit;
 use super::complain;
+use super::numbers::within;
 use super::run::model;
 use super::say;
 
@@ -30,7 +31,7 @@ pub(crate) struct CompareArguments {
     #[arg(long = "model", value_name = "MODEL", value_parser = model())]
     models: Vec<Model>,
     /// Number of seeds for each model; the first is the seed of the scenario.
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = within::<u64>(1..=10_000))]
     seeds: u64,
     /// Vehicles per hour in total; replaces all demands of the scenarios.
     #[arg(long, value_name = "VEH_PER_H")]

@@ -7,6 +7,7 @@ use laneweave::explain::{Commonest, Moment, moment, trip};
 use laneweave::record::{End, Record};
 use laneweave::{Fault, Simulation};
 
+use super::numbers::whole;
 use super::say;
 
 #[derive(Debug, Args)]
@@ -15,7 +16,7 @@ pub(crate) struct ExplainArguments {
     #[arg(value_name = "OUT")]
     out: PathBuf,
     /// The vehicle to explain, by its id in the tables.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", value_parser = whole::<u32>)]
     vehicle: Option<u32>,
     /// The time to explain, in seconds as in the tables [default: the whole trip].
     #[arg(long, value_name = "S", requires = "vehicle")]

@@ -17,7 +17,7 @@ use laneweave_studies::fit::{
 
 use super::check::{Reading, json};
 use super::complain;
-use super::numbers::{number, seed};
+use super::numbers::{number, seed, within};
 use super::progress::ShareDone;
 use super::say;
 
@@ -53,10 +53,10 @@ pub(crate) struct FitArguments {
     #[arg(long, value_name = "STYLE", default_value = "conservative")]
     prior: String,
     /// Draws of the bootstrap over drivers; 0: errors by the information matrix alone.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = within::<u32>(0..=10_000))]
     draws: u32,
     /// How often a third of the drivers is held out in turn.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=100))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = within::<u32>(1..=100))]
     repetitions: u32,
     /// Seconds before its centre crosses the line at which a vehicle begins a change [default: where its path shows it,
     /// or 1.5 if many changes had begun before their vehicles were first seen].
@@ -69,7 +69,7 @@ pub(crate) struct FitArguments {
     /// Judge the fit in the world: fit a style to the first two thirds of the recorded time, too, and simulate the last
     /// third with it N times, as a whole and from snapshots, beside a constant chance, MOBIL, LMRS and the built-in
     /// style [default for N: 40].
-    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "40", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "40", value_parser = within::<u32>(2..=10_000))]
     judge: Option<u32>,
     /// Seed of all random numbers.
     #[arg(long, value_name = "N", value_parser = seed, default_value = "1")]

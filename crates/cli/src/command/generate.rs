@@ -13,7 +13,7 @@ use laneweave::network::DrivingSide;
 use laneweave::output::write_whole;
 
 use super::examples;
-use super::numbers::number;
+use super::numbers::{number, seed, whole};
 use super::say;
 
 #[derive(Debug, Subcommand)]
@@ -47,7 +47,7 @@ pub(crate) enum Kind {
 #[derive(Debug, Args)]
 pub(crate) struct MotorwayArguments {
     /// Number of lanes, 1 to 12.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, default_value_t = 3)]
     lanes: usize,
     /// Length [m].
     #[arg(long, value_name = "M", default_value_t = 5000.0, value_parser = number)]
@@ -71,7 +71,7 @@ pub(crate) struct MotorwayArguments {
 #[derive(Debug, Args)]
 pub(crate) struct WeavingArguments {
     /// Number of lanes, 1 to 12, without the auxiliary lane between the ramps.
-    #[arg(long, value_name = "N", default_value_t = 2)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, default_value_t = 2)]
     lanes: usize,
     /// From the on-ramp to the off-ramp [m], 100 to 1000.
     #[arg(long, value_name = "M", default_value_t = 450.0, value_parser = number)]
@@ -86,16 +86,16 @@ pub(crate) struct WeavingArguments {
 #[derive(Debug, Args)]
 pub(crate) struct GridArguments {
     /// Streets that run east and west, 1 to 50.
-    #[arg(long, value_name = "R")]
+    #[arg(long, value_name = "R", value_parser = whole::<usize>)]
     rows: usize,
     /// Streets that run north and south, 1 to 50.
-    #[arg(long, value_name = "C")]
+    #[arg(long, value_name = "C", value_parser = whole::<usize>)]
     columns: usize,
     /// From one junction to the next [m], 80 to 1000.
     #[arg(long, value_name = "M", default_value_t = 150.0, value_parser = number)]
     block_length: f64,
     /// Number of lanes in each direction, 1 to 3.
-    #[arg(long, value_name = "N", default_value_t = 2)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, default_value_t = 2)]
     lanes: usize,
     /// Speed limit [km/h], 5 to 130.
     #[arg(long, value_name = "KMH", default_value_t = 50.0, value_parser = number)]
@@ -113,7 +113,7 @@ pub(crate) struct GridArguments {
 #[derive(Debug, Args)]
 pub(crate) struct ArterialArguments {
     /// Number of junctions, 1 to 50.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
     junctions: usize,
     /// From one junction to the next [m], 80 to 1000.
     #[arg(long, value_name = "M", default_value_t = 300.0, value_parser = number)]
@@ -131,10 +131,10 @@ pub(crate) struct ArterialArguments {
 #[derive(Debug, Args)]
 pub(crate) struct RoundaboutArguments {
     /// Number of arms, 3 to 6.
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, default_value_t = 4)]
     arms: usize,
     /// Number of lanes around it, and on each arm in each direction, 1 or 2.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, default_value_t = 1)]
     lanes: usize,
     /// Radius of the middle of its ring [m], up to 60 [default: the smallest for these arms and lanes].
     #[arg(long, value_name = "M", value_parser = number)]
@@ -146,7 +146,7 @@ pub(crate) struct RoundaboutArguments {
 #[derive(Debug, Args)]
 pub(crate) struct TownArguments {
     /// Streets in each direction of a larger town, 3 to 20 [default: the town with the motorway].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
     size: Option<usize>,
     #[command(flatten)]
     plain: Plain,
@@ -155,7 +155,7 @@ pub(crate) struct TownArguments {
 #[derive(Debug, Args)]
 pub(crate) struct RandomArguments {
     /// Seed of the map: the same seed gives the same map.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", value_parser = seed, default_value_t = 1)]
     seed: u64,
     /// Draw only this difficult element, and as many as there is room for, such as nested-fork; a wrong name lists all.
     #[arg(long, value_name = "ELEMENT")]

@@ -16,7 +16,7 @@ use laneweave_studies::replay::{Asked, page, replay, scenario};
 
 use super::check::{Reading, json};
 use super::complain;
-use super::numbers::{number, seed};
+use super::numbers::{number, seed, within};
 use super::progress::Progress;
 use super::run::{model, weighted};
 use super::say;
@@ -57,7 +57,7 @@ pub(crate) struct ReplayArguments {
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weighted)]
     style: Vec<(String, f64)>,
     /// Rollouts of each model, each with other random numbers: the drivers are compared with what was recorded of them.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = within::<u64>(1..=1000))]
     rollouts: u64,
     /// A lane-change model that is compared, too; may be repeated [default: null, mobil].
     #[arg(long = "against", value_name = "MODEL", value_parser = model())]

@@ -15,6 +15,7 @@ use laneweave_studies::fit::Request;
 
 use super::check::Reading;
 use super::complain;
+use super::numbers::within;
 use super::progress::ShareDone;
 use super::say;
 
@@ -29,7 +30,7 @@ pub(crate) struct ReproduceArguments {
     #[arg(value_name = "EXPERIMENT", value_parser = names(), default_value = ALL)]
     experiments: Vec<String>,
     /// Number of seeds of each kind of traffic [default: 5].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1000))]
+    #[arg(long, value_name = "N", value_parser = within::<u64>(1..=1000))]
     seeds: Option<u64>,
     /// A try of a minute: 2 seeds, and a tenth of the simulated times.
     #[arg(long)]

@@ -11,7 +11,7 @@ use laneweave::scenario::open_map;
 use serde::Serialize;
 
 use super::check::{Reading, json};
-use super::numbers::{id, number};
+use super::numbers::{id, number, whole};
 use super::say;
 
 #[derive(Debug, Args)]
@@ -28,7 +28,7 @@ pub(crate) struct RoutesArguments {
     #[command(flatten)]
     reading: Reading,
     /// Largest number of routes to list.
-    #[arg(long, value_name = "N", default_value_t = Sense::default().most)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, default_value_t = Sense::default().most)]
     most: usize,
     /// Longest travel time of a route, as a multiple of that of the fastest route.
     #[arg(long, value_name = "TIMES", value_parser = number, default_value_t = Sense::default().longest)]

@@ -18,7 +18,7 @@ use laneweave::{Fault, Simulation};
 
 use super::check::{Limit, driving_side, json};
 use super::complain;
-use super::numbers::{number, seed, threads};
+use super::numbers::{number, seed, threads, within};
 use super::progress::Progress;
 use super::resume::same_run;
 use super::say;
@@ -92,7 +92,7 @@ pub(crate) struct RunArguments {
     resume: bool,
     /// Then run the scenario with N draws of the parameters of fitted styles, twice each, and say how much of the
     /// spread of what runs show comes from the parameters, and how much is chance.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000), conflicts_with = "resume")]
+    #[arg(long, value_name = "N", value_parser = within::<u32>(2..=10_000), conflicts_with = "resume")]
     draw_parameters: Option<u32>,
     /// On which side traffic drives [default: the side that the map gives, otherwise right].
     #[arg(long, value_name = "SIDE", value_parser = driving_side())]

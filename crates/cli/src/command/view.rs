@@ -13,7 +13,7 @@ use laneweave_viewer::{Server, Source, Token, export};
 
 use super::complain;
 use super::doorway::Doorway;
-use super::numbers::number;
+use super::numbers::{number, within};
 use super::say;
 use super::shown::Shown;
 use super::stop::Stop;
@@ -31,7 +31,7 @@ pub(crate) struct ViewArguments {
     #[arg(long = "set", value_name = "STYLE.KEY=VALUE|commands=FILE", requires = "at")]
     settings: Vec<Setting>,
     /// The port of the page [default: any free one].
-    #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
+    #[arg(long, value_name = "PORT", value_parser = within::<u16>(0..=u16::MAX), default_value_t = 0, hide_default_value = true)]
     port: u16,
     /// The address of this machine under which other machines see the page; whoever knows the address of the page can
     /// do what you can do there.

@@ -333,6 +333,15 @@ fn numbers_with_units_separators_or_out_of_range() {
         answer(&folder, "routes MAPS/ramps.osm 1 lane").contains("an id is a whole number; laneweave check")
     );
     assert!(answer(&folder, "generate motorway --length 5km m.osm").contains("write a plain number"));
+    for (line, message) in [
+        ("generate motorway --lanes 2.5 m.osm", "'--lanes <N>': write a whole number, such as 3"),
+        ("routes MAPS/ramps.osm 1 2 --most many", "'--most <N>': write a whole number, such as 3"),
+        ("replay rec.csv --rollouts 0", "'--rollouts <N>': choose a whole number, 1 to 1000"),
+        ("view out --port 70000", "'--port <PORT>': choose a whole number, 0 to 65535"),
+    ] {
+        let refused = answer(&folder, line);
+        assert!(refused.contains(message), "{line}: {refused}");
+    }
     assert!(scenario("[run]\nstep_s = 100\n").starts_with("s.toml:3:1: a step of 100 s; choose 0.01 to 1 s"));
 }
 
