@@ -29,6 +29,8 @@ mod limits;
 #[cfg(test)]
 mod mistakes;
 #[cfg(test)]
+mod numbers;
+#[cfg(test)]
 mod program;
 #[cfg(test)]
 mod recordings;
