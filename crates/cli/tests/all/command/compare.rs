@@ -93,7 +93,7 @@ fn what_cannot_be_compared_is_refused_with_a_remedy() {
     };
     assert!(refused("compare nowhere.osm").contains("nowhere.osm"));
     assert!(refused("compare MAPS/ramps.osm --model mobl").contains("mobil"));
-    assert!(refused("compare MAPS/ramps.osm --seeds 0").contains("1..=10000"));
+    assert!(refused("compare MAPS/ramps.osm --seeds 0").contains("choose a whole number, 1 to 10000"));
     // Nothing runs before everything has been checked.
     let run = folder.laneweave("compare MAPS/ramps.osm nowhere.osm --duration 10 --seeds 1");
     assert_eq!((run.code(), run.text().as_str()), (2, ""));
