@@ -1,7 +1,8 @@
 //! How much it costs to take 10,000 vehicles as columns, compared with their step.
 //!
-//! `cargo run --release -p laneweave-bench --bin columns` prints times. `… -- STEPS CALLS` simulates so many steps, and
-//! takes the columns so many times after each: the difference of two runs under callgrind counts instructions.
+//! `cargo run --release -p laneweave-bench --bin columns` prints times. `… -- STEPS CALLS KIND` simulates so many steps,
+//! and takes the columns so many times after each, of one kind: 0 basic, 1 with poses, 2 complete. The difference of two
+//! runs under callgrind counts instructions.
 
 use std::error::Error;
 use std::time::Instant;
@@ -17,42 +18,47 @@ const SPACING: usize = 100;
 const SPEED: f64 = 26.0;
 /// Steps and calls after each of them, if none are given.
 const USUAL: [usize; 2] = [300, 1];
+/// The name of a kind of columns, and how empty ones are made.
+type Kind = (&'static str, fn() -> Columns);
+
+const KINDS: [Kind; 3] =
+    [("basic", Columns::default), ("with poses", Columns::with_poses), ("complete", Columns::complete)];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let numbers: Result<Vec<usize>, _> = std::env::args().skip(1).map(|it| it.parse()).collect();
-    let [steps, calls] = <[usize; 2]>::try_from(numbers?).unwrap_or(USUAL);
     let mut simulation = filled()?;
-    for (name, mut columns) in [
-        ("basic", Columns::default()),
-        ("with poses", Columns::with_poses()),
-        ("complete", Columns::complete()),
-    ] {
-        let mut times = [0.0; 2];
-        for _ in 0..steps {
-            let start = Instant::now();
-            simulation.advance();
-            times[0] += start.elapsed().as_secs_f64();
-            let start = Instant::now();
-            (0..calls).for_each(|_| simulation.columns(&mut columns));
-            times[1] += start.elapsed().as_secs_f64();
+    match numbers?[..] {
+        [steps, calls, kind] => {
+            let (_, columns) = KINDS.get(kind).ok_or("KIND is 0, 1 or 2")?;
+            measure(&mut simulation, [steps, calls], columns());
         }
-        let updates = (steps * simulation.on_road()) as f64;
-        let [step, taken] = [times[0], times[1] / calls.max(1) as f64].map(|it| 1e9 * it / updates);
-        say(&format!(
-            "{name:10}: {} vehicles; a step takes {step:.1} ns for each, columns {taken:.2} ns: {:.2} %",
-            simulation.on_road(),
-            100.0 * taken / step
-        ));
-        if numbers_are_given() {
-            // One kind of columns only, so that instructions can be counted.
-            break;
+        _ => {
+            for (name, columns) in KINDS {
+                let [step, taken] = measure(&mut simulation, USUAL, columns());
+                say(&format!(
+                    "{name:10}: {} vehicles; a step takes {step:.1} ns for each, columns {taken:.2} ns: {:.2} %",
+                    simulation.on_road(),
+                    100.0 * taken / step
+                ));
+            }
         }
     }
     Ok(())
 }
 
-fn numbers_are_given() -> bool {
-    std::env::args().len() > 1
+/// The times of a step, and of taking the columns once, for each vehicle [ns].
+fn measure(simulation: &mut Simulation, [steps, calls]: [usize; 2], mut columns: Columns) -> [f64; 2] {
+    let mut times = [0.0; 2];
+    for _ in 0..steps {
+        let start = Instant::now();
+        simulation.advance();
+        times[0] += start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        (0..calls).for_each(|_| simulation.columns(&mut columns));
+        times[1] += start.elapsed().as_secs_f64();
+    }
+    let updates = (steps * simulation.on_road()) as f64;
+    [times[0], times[1] / calls.max(1) as f64].map(|it| 1e9 * it / updates)
 }
 
 /// A motorway with all vehicles at equal distances on each lane, and nobody who arrives.

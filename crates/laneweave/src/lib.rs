@@ -19,13 +19,17 @@
 //! }
 //! ```
 //!
+//! A [`Template`] makes many simulations of one scenario, and a [`Fleet`] steps them together.
+//!
 //! Below it, a [`scenario`] names a map, [`style`]s and a demand. It is prepared into a world of [`sim`]. A
 //! [`run`](run::Run) steps through the world while [`output`]s observe it and write its result files.
 
 pub mod explain;
+mod fleet;
 pub mod run;
 mod simulation;
 
+pub use fleet::{Fleet, SIGHT_COLUMNS};
 pub use laneweave_models::Parameter;
 pub use laneweave_models::change::IncentiveName;
 pub use laneweave_network::{LightState, Side};
@@ -39,11 +43,11 @@ pub use laneweave_scenario::{
 };
 pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, LaneChangeKind, Lateral, Longitudinal,
-    NewVehicle, Phase, VehicleId,
+    NewVehicle, Phase, Rows, VehicleId,
 };
 pub use simulation::{
     Builder, Decision, Evaluation, Event, Incident, LaneChange, Leader, Light, MapSource, Observer,
-    Occurrence, Reason, SideEvaluation, Simulation, StyleState, VehicleState, Watcher,
+    Occurrence, Reason, SideEvaluation, Simulation, StyleState, Template, VehicleState, Watcher,
 };
 
 pub use laneweave_generate as generate;

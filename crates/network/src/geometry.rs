@@ -173,6 +173,11 @@ impl Polyline {
         point
     }
 
+    /// A walk along the line: for many stations one after the other, each near the one before.
+    pub fn walk(&self) -> LineWalk<'_> {
+        LineWalk { line: self, after: 1 }
+    }
+
     /// Station of the first place where the line through `points` crosses this one, seen from above.
     pub fn crossed_by(&self, points: &[Point]) -> Option<f64> {
         let pieces = self.points.windows(2).zip(&self.stations);
@@ -195,6 +200,31 @@ impl Polyline {
         for point in &next.points {
             self.push(*point);
         }
+    }
+}
+
+/// A walk along a line, which begins where the last place was to look for the next one.
+#[derive(Clone, Debug)]
+pub struct LineWalk<'a> {
+    line: &'a Polyline,
+    /// The number of the point after the last place.
+    after: usize,
+}
+
+impl LineWalk<'_> {
+    /// The same as [`Polyline::at`].
+    #[inline]
+    pub fn at(&mut self, station: f64) -> Point {
+        let Polyline { points, stations } = self.line;
+        let last = stations.len() - 1;
+        while self.after < last && stations[self.after] <= station {
+            self.after += 1;
+        }
+        while self.after > 1 && stations[self.after - 1] > station {
+            self.after -= 1;
+        }
+        let [from, to] = [self.after - 1, self.after];
+        points[from].towards(&points[to], (station - stations[from]) / (stations[to] - stations[from]))
     }
 }
 

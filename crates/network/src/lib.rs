@@ -30,7 +30,7 @@ pub use build::NetworkError;
 pub use chain::{Bend, Beside, Chain, ChainIndex, ForkBranch, Limit, Position};
 pub use class::{Body, Class, Classes};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
-pub use geometry::{Point, Polyline, Pose, turn};
+pub use geometry::{LineWalk, Point, Polyline, Pose, turn};
 pub use ground::{Footprint, Ground};
 pub use joints::onward;
 pub use junction::{

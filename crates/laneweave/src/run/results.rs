@@ -107,7 +107,7 @@ impl Run {
         let dir = &scenario.output.dir;
         let mut outputs = outputs(&scenario, &simulation.prepared, &provenance)?;
         let output_settings = record::output_settings(&scenario)?;
-        let keeper = simulation.prepared.checkpoint_steps.map(|every| Keeper {
+        let keeper = simulation.prepared.conditions.checkpoint_steps.map(|every| Keeper {
             path: dir.join(checkpoint::FILE),
             every,
             fingerprint: provenance.fingerprint.clone(),
@@ -131,7 +131,7 @@ impl Run {
             claim.settle(&files)?;
             claim.clear(&checkpoint::FILES)?;
         }
-        let (styles, warnings) = (prepared.styles.clone(), prepared.script.warnings());
+        let (styles, warnings) = (prepared.conditions.styles.clone(), prepared.script.warnings());
         Ok(Results { summary, files, styles, warnings })
     }
 }

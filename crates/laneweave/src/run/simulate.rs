@@ -24,7 +24,7 @@ pub fn simulate<E: From<Fault>>(
     mut act: impl FnMut(&mut Simulation) -> Result<bool, E>,
     when_warm: impl FnOnce(),
 ) -> Result<Ending, E> {
-    let steps = simulation.prepared.steps;
+    let steps = simulation.prepared.conditions.steps;
     let mut run = match from {
         Some(checkpoint) => Measuring::resumed(&mut simulation.prepared, outputs, checkpoint)?,
         None => Measuring::warmed_up(simulation, outputs, &mut act)?,
@@ -87,7 +87,7 @@ impl Measuring {
         act: &mut impl FnMut(&mut Simulation) -> Result<bool, E>,
     ) -> Result<Measuring, E> {
         let mut is_interrupted = false;
-        for _ in 0..simulation.prepared.warmup_steps {
+        for _ in 0..simulation.prepared.conditions.warmup_steps {
             if !goes_on(simulation, act)? {
                 is_interrupted = true;
                 break;

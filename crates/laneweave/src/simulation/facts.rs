@@ -16,22 +16,22 @@ impl Simulation {
 
     /// The elements of the map that could not be used unchanged.
     pub fn problems(&self) -> &[Problem] {
-        &self.prepared.problems
+        &self.prepared.conditions.problems
     }
 
     /// Remarks on the traffic of the map, the most important one first.
     pub fn remarks(&self) -> &[Remark] {
-        &self.prepared.remarks
+        &self.prepared.conditions.remarks
     }
 
     /// The estimated capacity of the map.
     pub fn capacity(&self) -> &Capacity {
-        &self.prepared.capacity
+        &self.prepared.conditions.capacity
     }
 
     /// Mean demand over all entrances while it is measured [veh/h].
     pub fn demand_veh_h(&self) -> f64 {
-        self.prepared.demand_veh_h
+        self.prepared.conditions.demand_veh_h
     }
 
     /// The default demand in a line for the screen, if it is used.

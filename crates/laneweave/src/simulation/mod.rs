@@ -12,6 +12,7 @@ mod queries;
 mod restart;
 mod results;
 mod settings;
+mod template;
 mod twins;
 mod vehicle_state;
 mod watch;
@@ -21,7 +22,7 @@ use std::sync::Arc;
 use laneweave_maps::Map;
 use laneweave_network::Network;
 use laneweave_scenario::scenario::{
-    Demand, Origin, Prepared, Scenario, prepare, prepare_on, prepare_playing, prepare_recorded,
+    Conditions, Demand, Origin, Prepared, Scenario, prepare, prepare_on, prepare_playing, prepare_recorded,
 };
 use laneweave_scenario::{Fault, FaultKind, Player, Recorded};
 use laneweave_sim::{Clock, World};
@@ -33,6 +34,7 @@ pub use event::{Event, Incident, LaneChange, Occurrence};
 pub use light::Light;
 pub use observer::Observer;
 pub use settings::StyleState;
+pub use template::Template;
 pub use vehicle_state::VehicleState;
 pub use watch::Watcher;
 
@@ -42,8 +44,10 @@ pub use watch::Watcher;
 /// counts begin anew.
 pub struct Simulation {
     scenario: Scenario,
-    origin: Origin,
+    origin: Arc<Origin>,
     pub(crate) prepared: Prepared,
+    /// The template that has spawned it, if one has.
+    template: Option<Template>,
     /// Whether its map is a file, so that its results can name it.
     has_map_file: bool,
     /// Whether a program has given commands to it.
@@ -132,8 +136,8 @@ impl Simulation {
     }
 
     fn new(scenario: Scenario, origin: Origin, prepared: Prepared, has_map_file: bool) -> Simulation {
-        let [is_commanded, is_changed] = [false; 2];
-        Simulation { scenario, origin, prepared, has_map_file, is_commanded, is_changed }
+        let (origin, template, [is_commanded, is_changed]) = (Arc::new(origin), None, [false; 2]);
+        Simulation { scenario, origin, prepared, template, has_map_file, is_commanded, is_changed }
     }
 
     /// Simulates one step, and returns what happened in it. The commands of the scenario that are due are given before.
@@ -208,7 +212,7 @@ impl Simulation {
 
     /// The steps of the warm-up, and the steps that are measured after it.
     pub fn run_steps(&self) -> [u32; 2] {
-        [self.prepared.warmup_steps, self.prepared.steps]
+        [self.prepared.conditions.warmup_steps, self.prepared.conditions.steps]
     }
 
     /// The present time [s].
@@ -218,7 +222,7 @@ impl Simulation {
 
     /// The time at which a run with this warm-up and duration ends [s].
     pub fn end_s(&self) -> f64 {
-        let Prepared { warmup_steps, steps, .. } = &self.prepared;
+        let Conditions { warmup_steps, steps, .. } = &*self.prepared.conditions;
         f64::from(warmup_steps + steps) * self.scenario.run.step_s
     }
 

@@ -2,7 +2,7 @@
 
 use laneweave_network::{Position, Rectangle};
 use laneweave_scenario::Fault;
-use laneweave_sim::{Columns, Intention, Scene, Vehicle, VehicleId};
+use laneweave_sim::{Columns, Intention, Rows, Scene, Vehicle, VehicleId};
 
 use super::{Simulation, VehicleState};
 
@@ -74,6 +74,16 @@ impl Simulation {
     /// call.
     pub fn columns(&self, columns: &mut Columns) {
         self.world().columns(columns);
+    }
+
+    /// Vehicles on the road.
+    pub(crate) fn crowd(&self) -> usize {
+        self.world().crowd()
+    }
+
+    /// Fills as many of the next `rows` as there are vehicles.
+    pub(crate) fn fill(&self, rows: &mut Rows) {
+        self.world().fill(rows);
     }
 
     /// What the driver of a vehicle intends to do in the next step, whoever drives the vehicle. `None` if the vehicle

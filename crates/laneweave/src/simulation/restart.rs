@@ -6,10 +6,11 @@ use super::Simulation;
 
 impl Simulation {
     /// Begins anew with another seed of all random numbers. The map, the styles and a recording are not read again, so
-    /// this takes much less time than a new simulation, and comes to the same traffic.
+    /// this takes much less time than a new simulation, and comes to the same traffic. It takes least where a
+    /// [`Template`](super::Template) has spawned the simulation: the drivers are then not drawn again, either.
     ///
     /// # Errors
-    /// If a distribution of a style gives an invalid value with this seed. Nothing changes then.
+    /// If drivers are drawn, and a distribution of a style gives an invalid value with this seed. Nothing changes then.
     ///
     /// ```no_run
     /// # fn main() -> Result<(), laneweave::Fault> {
@@ -22,7 +23,10 @@ impl Simulation {
     /// # }
     /// ```
     pub fn reset(&mut self, seed: u64) -> Result<(), Fault> {
-        self.prepared.restart(&self.scenario, &self.origin, seed)?;
+        match &self.template {
+            Some(template) => template.reset(&mut self.prepared, seed),
+            None => self.prepared.restart(&self.scenario, &self.origin, seed)?,
+        }
         self.scenario.run.seed = seed;
         (self.is_commanded, self.is_changed) = (false, false);
         Ok(())

@@ -23,7 +23,7 @@ pub struct StyleState {
 impl Simulation {
     /// The styles of the scenario, in the order of the indices in [`Columns::style`](laneweave_sim::Columns).
     pub fn styles(&self) -> Vec<StyleState> {
-        self.prepared.styles.iter().map(|(name, _)| self.style_state(name)).collect()
+        self.prepared.conditions.styles.iter().map(|(name, _)| self.style_state(name)).collect()
     }
 
     fn style_state(&self, name: &str) -> StyleState {

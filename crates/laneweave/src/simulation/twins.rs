@@ -27,7 +27,7 @@ impl Simulation {
     /// If they are not, or if a distribution gives an invalid value.
     pub fn change_styles(&mut self, styles: &[(StyleTemplate, f64)]) -> Result<(), Fault> {
         self.is_changed = true;
-        self.prepared.redraw_drivers(&self.scenario, styles, self.scenario.run.seed)
+        self.prepared.redraw_drivers(&self.scenario, styles, self.scenario.run.seed_of_drivers())
     }
 
     /// The commands in a file, or none; checked at the start of this simulation.

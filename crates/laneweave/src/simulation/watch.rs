@@ -52,7 +52,7 @@ impl Simulation {
     /// The vehicles over time on up to `number` slow lanes without a common part, those with the largest expected
     /// distance driven first, from now on for `duration` [s].
     pub fn traces(&self, number: usize, duration: f64) -> Vec<Traces> {
-        Traces::most_driven(number, self.world(), &self.prepared.origins, self.time_s(), duration)
+        Traces::most_driven(number, self.world(), &self.prepared.conditions.origins, self.time_s(), duration)
     }
 
     /// The positions of all vehicles, as a drone sees them from now on.

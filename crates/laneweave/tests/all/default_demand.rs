@@ -17,16 +17,16 @@ fn the_default_demand_fills_no_part_and_lets_other_entrances_grow_on() {
     let mut grown = 0;
     for seed in 501..513 {
         let usual = prepared(seed, None);
-        let Capacity { veh_h, queues_from_veh_h, .. } = *usual.capacity;
-        let total = usual.demand_veh_h;
+        let Capacity { veh_h, queues_from_veh_h, .. } = *usual.conditions.capacity;
+        let total = usual.conditions.demand_veh_h;
         // At each entrance it is rounded to a whole number.
-        let rounded = usual.origins.len() as f64;
-        assert!(usual.origins.iter().all(|it| it.1.fract() == 0.0 && it.1 >= 1.0), "{seed}");
+        let rounded = usual.conditions.origins.len() as f64;
+        assert!(usual.conditions.origins.iter().all(|it| it.1.fract() == 0.0 && it.1 >= 1.0), "{seed}");
         assert!(total <= 0.8 * queues_from_veh_h + rounded, "{seed}: {total} of {queues_from_veh_h}");
         assert!(total <= 0.63 * veh_h + rounded, "{seed}: {total} of {veh_h}");
         assert!(total >= (0.8 * queues_from_veh_h).min(0.63 * veh_h) - rounded, "{seed}: {total} of {veh_h}");
         // The same demand for each lane fills the first part sooner.
-        let even = prepared(seed, Some(1000.0)).capacity.queues_from_veh_h;
+        let even = prepared(seed, Some(1000.0)).conditions.capacity.queues_from_veh_h;
         assert!(queues_from_veh_h > 0.9 * even, "{seed}: {queues_from_veh_h} of {even}");
         grown += usize::from(queues_from_veh_h > 1.1 * even);
     }
@@ -41,7 +41,10 @@ fn what_entrances_bear_does_not_depend_on_how_numbers_are_rounded() {
             let mut scenario = Scenario::of_map("random.osm".into());
             scenario.demand.profile = vec![[0.0, factor]];
             let map = random(seed).drawing.build().expect("the drawing is sound");
-            prepare_on(map, &scenario, &Origin::default()).expect("the scenario is sound").demand_veh_h
+            prepare_on(map, &scenario, &Origin::default())
+                .expect("the scenario is sound")
+                .conditions
+                .demand_veh_h
         };
         for factor in [1.3, 1.7, 0.9] {
             assert!((of(factor) - factor * of(1.0)).abs() < 1e-6, "{seed}: {} at {factor}", of(factor));
@@ -53,7 +56,7 @@ fn what_entrances_bear_does_not_depend_on_how_numbers_are_rounded() {
 fn more_get_through_than_where_queues_begin_but_where_all_pass_one_part() {
     let mut more = 0;
     for seed in 501..513 {
-        let Capacity { veh_h, queues_from_veh_h, .. } = *prepared(seed, Some(1000.0)).capacity;
+        let Capacity { veh_h, queues_from_veh_h, .. } = *prepared(seed, Some(1000.0)).conditions.capacity;
         assert!(veh_h >= queues_from_veh_h, "{seed}: {veh_h} {queues_from_veh_h}");
         more += usize::from(veh_h > 1.1 * queues_from_veh_h);
     }

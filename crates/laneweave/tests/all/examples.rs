@@ -25,6 +25,9 @@ pub mod recorded_frame;
 #[path = "../../examples/07_commands_in_results.rs"]
 pub mod commands_in_results;
 
+#[path = "../../examples/09_many_worlds.rs"]
+pub mod many_worlds;
+
 /// Runs an example where its reader runs it: in the folder of the project.
 fn runs(example: fn() -> Result<(), Fault>) {
     let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -38,6 +41,11 @@ fn a_scenario_is_run_with_all_its_results() {
     let out = std::env::temp_dir().join(format!("laneweave-example-{}", std::process::id()));
     assert!(out.join("trips.parquet").exists() || out.join("trips.csv").exists());
     std::fs::remove_dir_all(out).expect("the example has written into it");
+}
+
+#[test]
+fn many_worlds_are_stepped_together() {
+    runs(many_worlds::main);
 }
 
 #[test]
@@ -87,5 +95,5 @@ fn every_example_is_run_here_and_short() {
         assert!(text.lines().count() <= 64, "{name} is long");
         count += 1;
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 8);
 }

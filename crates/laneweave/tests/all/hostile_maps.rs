@@ -16,7 +16,7 @@ fn world(map: &Path, seed: u64, [demand, share]: [f64; 2]) -> World {
     scenario.run.seed = seed;
     scenario.demand.vehicles_per_hour = Some(1.0);
     let prepared = |scenario: &Scenario| prepare(scenario, &Origin::default()).expect("the map is sound");
-    let capacity = prepared(&scenario).capacity.queues_from_veh_h;
+    let capacity = prepared(&scenario).conditions.capacity.queues_from_veh_h;
     scenario.demand.vehicles_per_hour = Some(demand.min(share * capacity));
     prepared(&scenario).world
 }

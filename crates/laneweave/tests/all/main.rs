@@ -14,6 +14,7 @@ mod door;
 #[allow(unreachable_pub, reason = "the examples are programs of their own, too")]
 mod examples;
 mod explain;
+mod fleet;
 mod flows;
 mod hostile_maps;
 mod house;
@@ -25,5 +26,6 @@ mod simulated;
 mod simulation;
 mod steps;
 mod styles;
+mod template;
 mod turns;
 mod two_entries;

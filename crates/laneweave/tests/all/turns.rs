@@ -187,5 +187,5 @@ fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where
     assert!(is(one, 0.25) && is(other, 0.25) && is(right, 0.5), "{weights:?}");
     scenario.turns[0] = turns;
     scenario.demand.vehicles_per_hour = Some(0.0);
-    assert_eq!(prepared(&scenario).demand_veh_h, 0.0);
+    assert_eq!(prepared(&scenario).conditions.demand_veh_h, 0.0);
 }

@@ -42,13 +42,16 @@ impl About {
             map: scenario.map.file_name().map_or(String::new(), |it| it.to_string_lossy().into_owned()),
             roads: roads(prepared.world.network()),
             law: scenario.map_options.law,
-            styles: prepared.styles.clone(),
+            styles: prepared.conditions.styles.clone(),
             classes: classes.map(|(class, share)| (class.body().name, share)).collect(),
-            demand: (prepared.demand_veh_h, prepared.origins.len()),
-            capacity: (prepared.capacity.veh_h, prepared.capacity.bottleneck.map(|it| it.to_string())),
+            demand: (prepared.conditions.demand_veh_h, prepared.conditions.origins.len()),
+            capacity: (
+                prepared.conditions.capacity.veh_h,
+                prepared.conditions.capacity.bottleneck.map(|it| it.to_string()),
+            ),
             times: [scenario.run.step_s, scenario.run.warmup_s, scenario.run.duration_s],
-            problems: prepared.problems.clone(),
-            remarks: prepared.remarks.clone(),
+            problems: prepared.conditions.problems.clone(),
+            remarks: prepared.conditions.remarks.clone(),
         }
     }
 }

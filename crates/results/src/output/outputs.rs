@@ -37,20 +37,21 @@ pub fn outputs(
     let folder = Folder { dir: &scenario.output.dir, format: scenario.output.format.into(), provenance };
     folder.make()?;
     let world = &prepared.world;
-    let begin = f64::from(prepared.warmup_steps) * scenario.run.step_s;
-    let measured = [prepared.warmup_steps, prepared.warmup_steps + prepared.steps];
-    let log = prepared.checkpoint_steps.map(|_| folder.file(checkpoint::LOG));
+    let begin = f64::from(prepared.conditions.warmup_steps) * scenario.run.step_s;
+    let measured =
+        [prepared.conditions.warmup_steps, prepared.conditions.warmup_steps + prepared.conditions.steps];
+    let log = prepared.conditions.checkpoint_steps.map(|_| folder.file(checkpoint::LOG));
     let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
     let cores = available_parallelism().map_or(1, NonZero::get);
     let free = cores.saturating_sub(prepared.threads);
     let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world), log, free)?;
     let sender = writers.sender();
     let mut outputs: Vec<Box<dyn Output>> = Vec::new();
-    if let Some(steps) = prepared.record_steps {
+    if let Some(steps) = prepared.conditions.record_steps {
         let is_machine_full = writers.threads() > free;
         outputs.push(Box::new(Samples::new(steps, is_machine_full, sender.clone(), written)));
     }
-    outputs.push(Box::new(Lanelets::new(world, prepared.flows_steps, measured, sender.clone())));
+    outputs.push(Box::new(Lanelets::new(world, prepared.conditions.flows_steps, measured, sender.clone())));
     outputs.push(Box::new(LaneChanges::new(begin, sender.clone())));
     outputs.push(Box::new(Incidents::new(begin, sender.clone())));
     outputs.push(Box::new(Commands::new(sender.clone())));
@@ -64,10 +65,10 @@ pub fn outputs(
 /// The writers of the tables.
 fn tables(prepared: &Prepared, folder: &Folder) -> Result<Vec<Box<dyn Writer>>, Fault> {
     let mut writers: Vec<Box<dyn Writer>> = Vec::new();
-    if prepared.record_steps.is_some() {
+    if prepared.conditions.record_steps.is_some() {
         writers.push(Box::new(Trajectories::create(folder)?));
     }
-    if prepared.flows_steps.is_some() {
+    if prepared.conditions.flows_steps.is_some() {
         writers.push(Box::new(FlowTable::create(folder)?));
     }
     writers.push(Box::new(LaneChangeTable::create(folder)?));

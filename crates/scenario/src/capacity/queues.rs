@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn nothing_is_estimated_before_somebody_asks() {
         let prepared = prepared(1);
-        assert_eq!(format!("{:?}", prepared.capacity), "LazyLock(<uninit>)");
-        assert!(prepared.capacity.veh_h > 0.0);
+        assert_eq!(format!("{:?}", prepared.conditions.capacity), "LazyLock(<uninit>)");
+        assert!(prepared.conditions.capacity.veh_h > 0.0);
     }
 }

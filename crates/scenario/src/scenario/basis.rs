@@ -28,8 +28,8 @@ impl Basis {
 impl Prepared {
     /// The default demand in a line for the screen, if it is used.
     pub fn demand_note(&self) -> Option<String> {
-        let demand = self.demand_veh_h;
-        match self.basis {
+        let demand = self.conditions.demand_veh_h;
+        match self.conditions.basis {
             Basis::Given => None,
             Basis::Estimated => Some(format!("demand: {demand:.0} veh/h, {}", self.share_of_capacity())),
             Basis::Usual => Some(format!("demand: {demand:.0} veh/h; this map has no estimated capacity")),
@@ -38,7 +38,8 @@ impl Prepared {
 
     /// A warning for the screen if the demand is above the estimated capacity, in a line.
     pub fn demand_warning(&self) -> Option<String> {
-        let (demand, Capacity { queues_from_veh_h, bottleneck, .. }) = (self.demand_veh_h, &*self.capacity);
+        let (demand, Capacity { queues_from_veh_h, bottleneck, .. }) =
+            (self.conditions.demand_veh_h, &*self.conditions.capacity);
         bottleneck.filter(|_| demand > *queues_from_veh_h).map(|it| {
             format!("demand: {demand:.0} veh/h is above {queues_from_veh_h:.0} veh/h: as long as this lasts, queues grow at {it}")
         })
@@ -46,7 +47,7 @@ impl Prepared {
 
     /// The demand as a share of the estimated capacity, in words.
     pub(super) fn share_of_capacity(&self) -> String {
-        let share = 100.0 * self.demand_veh_h / self.capacity.veh_h;
-        format!("{share:.0} % of the {}", *self.capacity)
+        let share = 100.0 * self.conditions.demand_veh_h / self.conditions.capacity.veh_h;
+        format!("{share:.0} % of the {}", *self.conditions.capacity)
     }
 }

@@ -1,6 +1,7 @@
 //! Scenario files: the input of a simulation, in TOML. Every key except the map has a default.
 
 mod basis;
+mod conditions;
 mod demand;
 mod external;
 mod headways;
@@ -15,6 +16,7 @@ mod replay;
 mod saved;
 mod settling;
 mod signals;
+mod template;
 mod turns;
 mod written;
 
@@ -29,6 +31,7 @@ use serde::{Deserialize, Serialize};
 use crate::style::{DEFAULT_MIXTURE, Model};
 
 pub use basis::Basis;
+pub use conditions::Conditions;
 pub use external::External;
 pub use headways::Headways;
 pub use line::{Line, Stop};
@@ -40,6 +43,7 @@ pub(crate) use prepare::LONGEST;
 pub use prepare::{Prepared, driven, driving, prepare, prepare_on, prepare_playing, prepare_recorded};
 pub use replay::Replay;
 pub use signals::{MadeSignals, Signal, SignalPhase};
+pub use template::Template;
 pub use turns::Turns;
 pub use written::write;
 
@@ -244,6 +248,8 @@ pub struct Run {
     pub step_s: f64,
     /// Seed of all random numbers.
     pub seed: u64,
+    /// Seed with which the parameters of drivers are drawn from the distributions of their styles. Default: `seed`.
+    pub drivers_seed: Option<u64>,
     /// Simulated time before anything is measured or recorded [s].
     pub warmup_s: f64,
     /// Number of threads; results do not depend on it. Default: the cores of the machine, less one core for writing
@@ -262,11 +268,19 @@ impl Default for Run {
             duration_s: 600.0,
             step_s: 0.1,
             seed: 1,
+            drivers_seed: None,
             warmup_s: 0.0,
             threads: None,
             audit: false,
             parameter_draw: None,
         }
+    }
+}
+
+impl Run {
+    /// The seed with which the parameters of drivers are drawn.
+    pub fn seed_of_drivers(&self) -> u64 {
+        self.drivers_seed.unwrap_or(self.seed)
     }
 }
 

@@ -4,12 +4,12 @@ use std::num::NonZero;
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use laneweave_maps::{Graph, Map, Problem, Size, regulations};
+use laneweave_maps::{Graph, Map, Size, regulations};
 use laneweave_models::Style;
 use laneweave_network::{LaneletIndex, Network};
-use laneweave_sim::{Place, Places, Setup, World, WorldError};
+use laneweave_sim::{Places, Setup, World, WorldError};
 
-use super::basis::Basis;
+use super::conditions::Conditions;
 use super::demand::{Amount, check_ways, demand};
 use super::made_signals::MadeLights;
 use super::map::read_map;
@@ -21,10 +21,10 @@ use super::{Origin, Scenario, SumoFile};
 use crate::capacity::{Estimate, Queues};
 use crate::fault::Fault;
 use crate::late_trips::on_late_trips_of;
-use crate::remarks::{Remark, remarks, unused_lanes};
+use crate::remarks::{remarks, unused_lanes};
 use crate::replay::{Player, Recorded};
 use crate::script::Script;
-use crate::style::{Population, StyleTemplate};
+use crate::style::Population;
 
 /// Maximum of threads.
 const MOST_THREADS: usize = 256;
@@ -50,36 +50,10 @@ pub struct Prepared {
     pub world: World,
     /// The commands that the scenario gives.
     pub script: Script,
-    /// Steps before anything is measured.
-    pub warmup_steps: u32,
-    /// Steps that are measured.
-    pub steps: u32,
-    /// Steps between two samples of a trajectory, if there are any.
-    pub record_steps: Option<u32>,
-    /// Steps between two checkpoints, if there are any.
-    pub checkpoint_steps: Option<u32>,
-    /// Steps over which flows are measured, if they are.
-    pub flows_steps: Option<u32>,
-    /// Mean demand over all origins while it is measured [veh/h].
-    pub demand_veh_h: f64,
-    /// Where trips start, each with its demand [veh/h].
-    pub origins: Vec<(Place, f64)>,
-    /// The basis of the demand.
-    pub basis: Basis,
-    /// The estimated capacity of the map.
-    pub capacity: Estimate,
-    /// Names and weights of the styles.
-    pub styles: Vec<(String, f64)>,
-    /// The styles from which the drivers are drawn, with their weights.
-    pub(super) mixture: Vec<(StyleTemplate, f64)>,
+    /// What is fixed before the run.
+    pub conditions: Arc<Conditions>,
     /// Number of threads.
     pub threads: usize,
-    /// Elements of the map that could not be used unchanged.
-    pub problems: Vec<Problem>,
-    /// Remarks on the traffic of the map.
-    pub remarks: Vec<Remark>,
-    /// Latitude and longitude of the map's (0, 0) [°], if it was projected.
-    pub origin: Option<(f64, f64)>,
 }
 
 /// Reads the map and the styles of `scenario`, and makes its world.
@@ -165,7 +139,8 @@ fn prepare_with(
     check_samples(scenario, origin, record_steps)?;
     let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
     let mixture = mixture(scenario, origin)?;
-    let Population { driver_parameters, shares } = Population::draw(&mixture, scenario.run.seed)?;
+    let Population { driver_parameters, shares } =
+        Population::draw(&mixture, scenario.run.seed_of_drivers())?;
     let driver_parameters = driving(scenario, driver_parameters);
     let map = map()?;
     let (network, places) = if scenario.map_options.joins_ends { joined(&map) } else { driven(&map) };
@@ -201,7 +176,7 @@ fn prepare_with(
     check_arrivals(scenario, origin, &world)?;
     let player = playing.player(scenario, origin, map.origin, &world)?;
     let script = Script::of(scenario, origin, &map.contents.obstacles, player, &world)?;
-    Ok(Prepared {
+    let conditions = Conditions {
         warmup_steps,
         steps: steps(scenario.run.duration_s).max(1),
         record_steps,
@@ -213,13 +188,11 @@ fn prepare_with(
         capacity,
         styles: mixture.iter().map(|(it, weight)| (it.typical().name.clone(), *weight)).collect(),
         mixture,
-        threads,
         problems: map.problems,
         remarks,
         origin: map.origin,
-        script,
-        world,
-    })
+    };
+    Ok(Prepared { world, script, conditions: Arc::new(conditions), threads })
 }
 
 /// The sets of driver parameters of a world of `scenario`: those of its population, and further ones beside a

@@ -19,12 +19,13 @@ impl Prepared {
     /// # Errors
     /// If a distribution of a style gives an invalid value with this seed. Nothing changes then.
     pub fn restart(&mut self, scenario: &Scenario, origin: &Origin, seed: u64) -> Result<(), Fault> {
-        let driver_parameters = Population::draw(&self.mixture, seed)?.driver_parameters;
+        let drivers_seed = scenario.run.drivers_seed.unwrap_or(seed);
+        let driver_parameters = Population::draw(&self.conditions.mixture, drivers_seed)?.driver_parameters;
         let setup = Setup { step: scenario.run.step_s, seed, threads: self.threads };
         let (network, demand) = (self.world.shared_network(), self.world.demand().clone());
         let world = World::new(network, driving(scenario, driver_parameters), demand, setup)
             .map_err(|error| unbuilt(scenario, origin, &error))?;
-        self.world = equipped(world, self.warmup_steps, scenario, origin)?;
+        self.world = equipped(world, self.conditions.warmup_steps, scenario, origin)?;
         self.script = self.script.restarted(seed);
         Ok(())
     }
@@ -40,7 +41,7 @@ impl Prepared {
         mixture: &[(StyleTemplate, f64)],
         seed: u64,
     ) -> Result<(), Fault> {
-        let drivers = Population::draw(&self.mixture, seed)?.redrawn(mixture, seed)?;
+        let drivers = Population::draw(&self.conditions.mixture, seed)?.redrawn(mixture, seed)?;
         let changed = self.world.change_driver_parameters(driving(scenario, drivers));
         changed
             .map_err(|error| Fault::new("styles", error, "give the styles of the scenario, in their order"))

@@ -1,5 +1,7 @@
 //! The vehicles that arrive, and those that wait to enter.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::demand::Demand;
@@ -16,10 +18,11 @@ use crate::state::random::Random;
 use crate::state::vehicle::Class;
 use crate::view::scene::Scene;
 
-/// The demand, and the queues of the vehicles that have arrived.
+/// The demand, and the queues of the vehicles that have arrived. Copies share the demand.
+#[derive(Clone)]
 pub(crate) struct Arrivals {
-    demand: Demand,
-    late: LateTrips,
+    demand: Arc<Demand>,
+    late: Arc<LateTrips>,
     backlog: Backlog,
 }
 
@@ -66,7 +69,14 @@ impl Arrivals {
         let lines = vec![LineCount::default(); demand.lines.len()];
         let (next_id, next_inserted) = (0, FIRST_INSERTED);
         let backlog = Backlog { sources, perimeter, weights, lines, next_id, next_inserted };
-        Arrivals { demand, late, backlog }
+        Arrivals { demand: Arc::new(demand), late: Arc::new(late), backlog }
+    }
+
+    /// The same arrivals, of which none has come yet, with other random numbers.
+    pub(crate) fn drawn_with(&self, random: &Random) -> Arrivals {
+        let mut arrivals = self.clone();
+        arrivals.backlog.sources.iter_mut().for_each(|it| it.draw_first(random));
+        arrivals
     }
 
     /// The demand: which vehicles arrive, from where and to where.

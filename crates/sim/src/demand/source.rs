@@ -152,7 +152,7 @@ impl Source {
                 destinations,
                 possible,
             };
-            (0..count).for_each(|stream| source.draw_next(stream, random));
+            source.draw_first(random);
             source
         });
         sources.collect()
@@ -209,6 +209,14 @@ impl Source {
         self.rate = Rate::constant(rate / self.streams.len() as f64);
         for stream in 0..self.streams.len() {
             self.streams[stream].next = time;
+            self.draw_next(stream, random);
+        }
+    }
+
+    /// Draws when the first vehicle of each stream arrives, from time 0 on.
+    pub(crate) fn draw_first(&mut self, random: &Random) {
+        for stream in 0..self.streams.len() {
+            self.streams[stream].next = 0.0;
             self.draw_next(stream, random);
         }
     }

@@ -76,8 +76,8 @@ impl Navigator {
     /// For each chain the last station from which a driver at the speed limit makes all lane changes of its route by
     /// `table` [m]: infinite where none is left, and minus infinity without a route.
     fn latest_starts(&self, network: &Network, table: u16) -> Vec<f64> {
-        let planner = self.planner(network, self.restriction(table));
-        let table = &self.tables[usize::from(table)];
+        let planner = self.routes.planner(network, self.restriction(table));
+        let table = &self.routes.tables[usize::from(table)];
         let mut order: Vec<usize> = (0..table.len()).filter(|it| table[*it].leads_there()).collect();
         // Each after the chains to which its route leads.
         order.sort_by(|a, b| {

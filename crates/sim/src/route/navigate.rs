@@ -6,6 +6,7 @@
 //! change. A new recommendation is planned in a table that no driver uses.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use laneweave_network::{ChainIndex, Classes, Network};
 
@@ -21,9 +22,18 @@ use crate::route::ways::{Into, Planner, beside_into};
 use crate::state::goal::{Destination, Goal, TripEnd};
 use crate::state::vehicle::Class;
 
-/// The waypoints of all destinations.
+/// The waypoints of all destinations, and the lanes that are closed.
+///
+/// Copies share the routes, until guidance changes those of one of them.
 #[derive(Clone, Debug)]
 pub struct Navigator {
+    pub(super) routes: Arc<Routes>,
+    pub(super) closures: Closures,
+}
+
+/// The routes to all destinations.
+#[derive(Clone, Debug)]
+pub(super) struct Routes {
     /// For each class restriction: a table for each destination, with the waypoints by chain, and then that of drivers
     /// without a destination. First all tables of the usual routes, then those of the recommended ones. These are empty
     /// until they are needed.
@@ -40,7 +50,6 @@ pub struct Navigator {
     pub(super) measurements: u32,
     pub(super) into: Vec<Into>,
     pub(super) restrictions: ClassRestrictions,
-    pub(super) closures: Closures,
     /// For each chain the trip ends on it, before its end.
     pub(super) trip_ends: Vec<Vec<TripEnd>>,
 }
@@ -75,7 +84,7 @@ impl Navigator {
         restrictions: ClassRestrictions,
         stops: usize,
     ) -> Navigator {
-        let mut navigator = Navigator {
+        let mut routes = Routes {
             tables: Vec::new(),
             onward: Onward::default(),
             of_restriction: destinations.len() + 1,
@@ -85,27 +94,26 @@ impl Navigator {
             measurements: 0,
             into: beside_into(network),
             restrictions,
-            closures: Closures::default(),
             trip_ends: vec![Vec::new(); network.chains.len()],
         };
-        for restriction in 0..navigator.restrictions.count() {
+        for restriction in 0..routes.restrictions.count() {
             for place in destinations {
-                let planner = navigator.planner(network, restriction);
+                let planner = routes.planner(network, restriction);
                 let mut table = planner.plan(place);
                 planner.note_alternatives(&mut table, None);
-                navigator.end_trips(place, navigator.tables.len());
-                navigator.tables.push(table);
+                routes.end_trips(place, routes.tables.len());
+                routes.tables.push(table);
             }
-            let table = navigator.planner(network, restriction).wander();
-            navigator.tables.push(table);
+            let table = routes.planner(network, restriction).wander();
+            routes.tables.push(table);
         }
-        navigator.look_onward(network);
-        navigator
+        routes.look_onward(network);
+        Navigator { routes: Arc::new(routes), closures: Closures::default() }
     }
 
     /// Whether a destination is a stop of a line.
     pub(crate) fn is_stop(&self, destination: Destination) -> bool {
-        self.number(destination).is_some_and(|it| it >= self.chosen())
+        self.number(destination).is_some_and(|it| it >= self.routes.chosen())
     }
 
     /// Where on `chain` the place beyond the stop is [m], if `destination` is a stop on it.
@@ -115,89 +123,59 @@ impl Navigator {
         stop.filter(is_there)
     }
 
-    /// Number of destinations that drivers choose.
-    pub(super) fn chosen(&self) -> usize {
-        self.of_restriction - 1 - self.stops
-    }
-
-    /// Stores again the next chain on every route of all tables.
-    pub(super) fn look_onward(&mut self, network: &Network) {
-        self.onward = Onward::new(network, self.tables.len());
-        for (number, table) in self.tables.iter().enumerate() {
-            self.onward.take(network, number, table);
-        }
-    }
-
-    pub(super) fn planner<'a>(&'a self, network: &'a Network, restriction: usize) -> Planner<'a> {
-        let Navigator { into, links, restrictions, .. } = self;
-        Planner { network, into, links, restrictions, restriction }
-    }
-
-    /// Records that the trips of drivers who use `table` end at `place`, unless it is a stop of a line.
-    pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
-        if table % self.of_restriction >= self.chosen() {
-            return;
-        }
-        if let Place::Inside(InnerPlace { chain, station, .. }) = place {
-            let goal = Goal::from(Some(table as u16));
-            self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
-        }
-    }
-
     /// Whether the route to a destination is planned.
     pub(crate) fn has(&self, destination: Destination) -> bool {
-        is_planned(&self.tables, destination)
+        is_planned(&self.routes.tables, destination)
     }
 
     /// Number of tables.
     pub(crate) fn tables(&self) -> usize {
-        self.tables.len()
+        self.routes.tables.len()
     }
 
     /// The tables of the usual routes to a destination.
     pub(crate) fn usual_tables(&self) -> impl DoubleEndedIterator<Item = usize> {
-        let of_restriction = self.of_restriction;
-        (0..self.usual()).filter(move |it| it % of_restriction < of_restriction - 1)
-    }
-
-    /// Number of tables of usual routes.
-    pub(super) fn usual(&self) -> usize {
-        self.restrictions.count() * self.of_restriction
+        let of_restriction = self.routes.of_restriction;
+        (0..self.routes.usual()).filter(move |it| it % of_restriction < of_restriction - 1)
     }
 
     /// Whether a driver has more than one route anywhere.
     pub(crate) fn offers_a_choice(&self) -> bool {
-        self.tables.iter().flatten().any(|it| it.leads_there() && it.alternative.is_finite())
+        self.routes.tables.iter().flatten().any(|it| it.leads_there() && it.alternative.is_finite())
     }
 
     /// The tables of all ways to the destination of `table`, with the same class restriction; the usual route first.
     pub(crate) fn ways(&self, table: usize) -> [usize; Navigator::WAYS] {
-        let usual = table % self.usual();
-        std::array::from_fn(|way| usual + way * self.usual())
+        let usual = table % self.routes.usual();
+        std::array::from_fn(|way| usual + way * self.routes.usual())
     }
 
     /// The table of the newest recommendation for drivers who use the table `destination`; none if they already use it,
     /// or are not guided.
     #[inline]
     pub(crate) fn recommended(&self, destination: Destination) -> Destination {
-        let table = destination.filter(|_| !self.recommended.is_empty())?;
-        Some(self.recommended[usize::from(table) % self.usual()]).filter(|it| *it != table)
+        let table = destination.filter(|_| !self.routes.recommended.is_empty())?;
+        Some(self.routes.recommended[usize::from(table) % self.routes.usual()]).filter(|it| *it != table)
     }
 
     /// Whether the table `destination` is that of a usual route.
     pub(crate) fn is_usual(&self, destination: Destination) -> bool {
-        destination.is_none_or(|it| usize::from(it) < self.usual())
+        destination.is_none_or(|it| usize::from(it) < self.routes.usual())
     }
 
     #[inline]
     pub(crate) fn links(&self) -> &Links {
-        &self.links
+        &self.routes.links
     }
 
     /// Travel time from the start of `chain` to `x` on it [s], as in the waypoints.
     #[inline]
     pub(crate) fn time_to(&self, network: &Network, chain: ChainIndex, x: f64) -> f64 {
-        if self.links.are_free() { x / network.chain(chain).limit(x) } else { self.links.time_to(chain, x) }
+        if self.routes.links.are_free() {
+            x / network.chain(chain).limit(x)
+        } else {
+            self.routes.links.time_to(chain, x)
+        }
     }
 
     /// Measured travel time on the next `distance` [m] of the route to `destination`, from `x` on `chain` on [s].
@@ -214,7 +192,8 @@ impl Navigator {
         for leg in self.walk(network, destination, chain, -x) {
             let from = if leg.before().is_none() { x } else { 0.0 };
             let here = left.min(network.chain(leg.chain).length - from).max(0.0);
-            time += self.links.time_to(leg.chain, from + here) - self.links.time_to(leg.chain, from);
+            time += self.routes.links.time_to(leg.chain, from + here)
+                - self.routes.links.time_to(leg.chain, from);
             left -= here;
             if left <= 0.0 {
                 break;
@@ -245,44 +224,44 @@ impl Navigator {
         chain: ChainIndex,
         start: f64,
     ) -> Walk<'a> {
-        Walk::new(network, &self.onward, self.table(destination), chain, start)
+        Walk::new(network, &self.routes.onward, self.table(destination), chain, start)
     }
 
     /// The first table of each class restriction.
     pub(crate) fn restrictions(&self) -> impl Iterator<Item = u16> {
-        let of_restriction = self.of_restriction;
-        (0..self.restrictions.count()).map(move |it| (it * of_restriction) as u16)
+        let of_restriction = self.routes.of_restriction;
+        (0..self.routes.restrictions.count()).map(move |it| (it * of_restriction) as u16)
     }
 
     /// The class restriction of `class`.
     pub(crate) fn restriction_of(&self, class: Class) -> usize {
-        self.restrictions.of_class(class)
+        self.routes.restrictions.of_class(class)
     }
 
     /// A destination with the restriction of `class`. Who follows the road has the table of its restriction, too.
     pub(crate) fn seen_by(&self, class: Class, destination: Destination) -> Destination {
-        let restriction = self.restrictions.of_class(class);
-        let wanders = self.of_restriction - 1;
-        let number = destination.map_or(wanders, |it| usize::from(it) % self.of_restriction);
-        let table = (restriction * self.of_restriction + number) as u16;
+        let restriction = self.routes.restrictions.of_class(class);
+        let wanders = self.routes.of_restriction - 1;
+        let number = destination.map_or(wanders, |it| usize::from(it) % self.routes.of_restriction);
+        let table = (restriction * self.routes.of_restriction + number) as u16;
         (number < wanders || restriction > 0).then_some(table)
     }
 
     /// A class that uses a table.
     pub(crate) fn class_of(&self, table: u16) -> Class {
-        self.restrictions.class(self.restriction(table))
+        self.routes.restrictions.class(self.restriction(table))
     }
 
     /// The class restriction of a table.
     pub(super) fn restriction(&self, table: u16) -> usize {
-        usize::from(table) / self.of_restriction % self.restrictions.count()
+        usize::from(table) / self.routes.of_restriction % self.routes.restrictions.count()
     }
 
     /// The index of the destination in the list of destinations, for any class restriction and way; `None` for who
     /// follows the road.
     pub fn number(&self, destination: Destination) -> Option<usize> {
-        let number = usize::from(destination?) % self.of_restriction;
-        (number < self.of_restriction - 1).then_some(number)
+        let number = usize::from(destination?) % self.routes.of_restriction;
+        (number < self.routes.of_restriction - 1).then_some(number)
     }
 
     /// The chains on the route from the start of `chain` to `destination`, including those after lane changes.
@@ -298,13 +277,13 @@ impl Navigator {
     /// The waypoint of `chain`, from its start, on the route to `destination`.
     #[inline]
     pub fn waypoint(&self, destination: Destination, chain: ChainIndex) -> &Waypoint {
-        &self.tables[self.table(destination)][chain.at()]
+        &self.routes.tables[self.table(destination)][chain.at()]
     }
 
     /// The table of the drivers who go to `destination`.
     #[inline]
     fn table(&self, destination: Destination) -> usize {
-        destination.map_or(self.of_restriction - 1, usize::from)
+        destination.map_or(self.routes.of_restriction - 1, usize::from)
     }
 
     /// The chain after `chain` on the route to `destination`.
@@ -315,13 +294,13 @@ impl Navigator {
         destination: Destination,
         chain: ChainIndex,
     ) -> Option<ChainIndex> {
-        self.onward.next(network, chain, self.table(destination))
+        self.routes.onward.next(network, chain, self.table(destination))
     }
 
     /// Where on `chain` the way to `destination` ends [m], with the trip or at a stop; infinite where it goes on.
     #[inline]
     pub(crate) fn end_of_way(&self, destination: Destination, chain: ChainIndex) -> f64 {
-        let goes_on = self.stops == 0 && self.trip_ends(chain).is_empty();
+        let goes_on = self.routes.stops == 0 && self.trip_ends(chain).is_empty();
         if goes_on { f64::INFINITY } else { self.waypoint(destination, chain).end }
     }
 
@@ -365,7 +344,7 @@ impl Navigator {
     #[inline(never)]
     fn detour(&self, network: &Network, destination: Destination, chain: ChainIndex) -> Waypoint {
         let restriction = destination.map_or(0, |it| self.restriction(it));
-        let planner = self.planner(network, restriction);
+        let planner = self.routes.planner(network, restriction);
         let onward = planner.onward(chain).map(|it| (it, self.waypoint(destination, it)));
         let best = onward.min_by(|(_, a), (_, b)| a.cost().total_cmp(&b.cost()));
         let possible = best.filter(|(_, it)| it.leads_there());
@@ -375,7 +354,43 @@ impl Navigator {
     /// The trip ends on `chain`.
     #[inline]
     pub(crate) fn trip_ends(&self, chain: ChainIndex) -> &[TripEnd] {
-        &self.trip_ends[chain.at()]
+        &self.routes.trip_ends[chain.at()]
+    }
+}
+
+impl Routes {
+    /// Stores again the next chain on every route of all tables.
+    pub(super) fn look_onward(&mut self, network: &Network) {
+        self.onward = Onward::new(network, self.tables.len());
+        for (number, table) in self.tables.iter().enumerate() {
+            self.onward.take(network, number, table);
+        }
+    }
+
+    pub(super) fn planner<'a>(&'a self, network: &'a Network, restriction: usize) -> Planner<'a> {
+        let Routes { into, links, restrictions, .. } = self;
+        Planner { network, into, links, restrictions, restriction }
+    }
+
+    /// Records that the trips of drivers who use `table` end at `place`, unless it is a stop of a line.
+    pub(super) fn end_trips(&mut self, place: &Place, table: usize) {
+        if table % self.of_restriction >= self.chosen() {
+            return;
+        }
+        if let Place::Inside(InnerPlace { chain, station, .. }) = place {
+            let goal = Goal::from(Some(table as u16));
+            self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
+        }
+    }
+
+    /// Number of destinations that drivers choose.
+    pub(super) fn chosen(&self) -> usize {
+        self.of_restriction - 1 - self.stops
+    }
+
+    /// Number of tables of usual routes.
+    pub(super) fn usual(&self) -> usize {
+        self.restrictions.count() * self.of_restriction
     }
 }
 

@@ -21,8 +21,8 @@ impl Navigator {
         chain: ChainIndex,
         x: f64,
     ) -> impl Iterator<Item = (Destination, f64)> {
-        let first = restriction * self.of_restriction;
-        let tables = self.tables[first..].iter().zip(first..).take(self.chosen());
+        let first = restriction * self.routes.of_restriction;
+        let tables = self.routes.tables[first..].iter().zip(first..).take(self.routes.chosen());
         tables.filter_map(move |(table, number)| {
             let waypoint = &table[chain.at()];
             waypoint.leads_on(x).then_some((Some(number as u16), waypoint.time))
@@ -32,8 +32,8 @@ impl Navigator {
     /// The destination of least time that can be reached from `x` on `chain`, also over its end, for a driver with the
     /// old destination `before`. `None` if there is none: the driver then follows the road.
     pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
-        let first = before.map_or(0, |it| self.restriction(it)) * self.of_restriction;
-        let all = (first..first + self.chosen()).map(|it| Some(it as u16));
+        let first = before.map_or(0, |it| self.restriction(it)) * self.routes.of_restriction;
+        let all = (first..first + self.routes.chosen()).map(|it| Some(it as u16));
         let reachable = all.filter_map(|it| {
             let waypoint = self.waypoint_from(network, it, chain, x);
             waypoint.leads_on(x).then_some((it, waypoint.time))

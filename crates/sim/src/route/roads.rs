@@ -18,16 +18,18 @@ use crate::state::driver_parameters::DriverParameters;
 use crate::state::lane::{DriverState, Lane};
 use crate::state::random::Random;
 
-/// What a step only reads, except for the routes of guidance: roads, driver parameters and random numbers.
+/// What a step only reads, except for the routes of guidance: roads, driver parameters and random numbers. Copies share
+/// all of it that is large, until one of them changes it.
+#[derive(Clone)]
 pub(crate) struct Roads {
     network: Arc<Network>,
     navigator: Navigator,
-    driver_parameters: DriverParameters,
+    driver_parameters: Arc<DriverParameters>,
     random: Random,
     /// Route guidance, if drivers are guided.
     guidance: Option<Guidance>,
     /// The ground, once it is needed.
-    ground: OnceLock<Ground>,
+    ground: Arc<OnceLock<Ground>>,
 }
 
 impl Roads {
@@ -41,8 +43,13 @@ impl Roads {
         random: Random,
     ) -> Roads {
         let navigator = Navigator::with_restrictions(&network, destinations, restrictions, stops);
-        let driver_parameters = DriverParameters::new(driver_parameters);
-        Roads { network, navigator, driver_parameters, random, guidance: None, ground: OnceLock::new() }
+        let driver_parameters = Arc::new(DriverParameters::new(driver_parameters));
+        Roads { network, navigator, driver_parameters, random, guidance: None, ground: Arc::default() }
+    }
+
+    /// The same roads with the random numbers of another seed.
+    pub(crate) fn with_seed(&self, seed: u64) -> Roads {
+        Roads { random: Random::new(seed), ..self.clone() }
     }
 
     #[inline]
@@ -104,7 +111,7 @@ impl Roads {
 
     /// The same, mutable. Their number stays the same.
     pub(crate) fn changed_parameters_mut(&mut self) -> &mut DriverParameters {
-        &mut self.driver_parameters
+        Arc::make_mut(&mut self.driver_parameters)
     }
 
     /// The random numbers.

@@ -9,6 +9,7 @@ use laneweave_models::{Parameter, Style};
 pub(crate) type ParameterChanges = BTreeMap<(String, Parameter), f64>;
 
 /// All sets of driver parameters.
+#[derive(Clone)]
 pub(crate) struct DriverParameters {
     /// Without the changes.
     given: Vec<Style>,

@@ -153,6 +153,13 @@ impl Lane {
             && self.is_in_order()
     }
 
+    /// Copies all vehicles of `other`, into the memory that it has.
+    pub(crate) fn copy_from(&mut self, other: &Lane) {
+        self.motions.clone_from(&other.motions);
+        self.drivers.clone_from(&other.drivers);
+        self.lane_change_states.clone_from(&other.lane_change_states);
+    }
+
     /// The kinematics of the vehicles.
     #[inline]
     pub fn motions(&self) -> &[Kinematics] {

@@ -43,6 +43,17 @@ impl Traffic {
         }
     }
 
+    /// Copies `start`, into the memory that it has.
+    pub(crate) fn begin_again(&mut self, start: &Traffic) {
+        let Traffic { clock, lanes, busy, crowd, externals } = self;
+        for (lane, start) in lanes.iter_mut().zip(&start.lanes) {
+            lane.copy_from(start);
+        }
+        (*clock, *crowd) = (start.clock, start.crowd);
+        busy.clone_from(&start.busy);
+        externals.clone_from(&start.externals);
+    }
+
     #[inline]
     pub(crate) fn clock(&self) -> Clock {
         self.clock

@@ -71,22 +71,42 @@ impl Columns {
         self.id.is_empty()
     }
 
-    fn resize(&mut self, count: usize) {
+    /// As many rows as there are vehicles, to be filled.
+    fn rows(&mut self, count: usize) -> Rows<'_> {
         let Columns { id, lanelet, position_m, speed_mps, acceleration_mps2, .. } = self;
+        let Columns { x_m, y_m, z_m, heading_rad, has_poses, .. } = self;
+        let poses = if *has_poses { count } else { 0 };
         id.resize(count, 0);
         lanelet.resize(count, 0);
-        [position_m, speed_mps].into_iter().for_each(|it| it.resize(count, 0.0));
+        [&mut *position_m, speed_mps].into_iter().for_each(|it| it.resize(count, 0.0));
         acceleration_mps2.resize(count, 0.0);
+        [&mut *x_m, y_m, z_m, heading_rad].into_iter().for_each(|it| it.resize(poses, 0.0));
+        Rows { id, lanelet, position_m, speed_mps, acceleration_mps2, x_m, y_m, z_m, heading_rad }
     }
 }
 
-/// The rows that are not filled yet.
-struct Rows<'a> {
-    id: &'a mut [VehicleId],
-    lanelet: &'a mut [u32],
-    position_m: &'a mut [f64],
-    speed_mps: &'a mut [f64],
-    acceleration_mps2: &'a mut [f32],
+/// The rows that are not filled yet, in slices of the caller. They are as many in each column; in those of the poses,
+/// they may be none.
+#[derive(Debug, Default)]
+pub struct Rows<'a> {
+    /// As in [`Columns`]; so are all others.
+    pub id: &'a mut [VehicleId],
+    /// Lanelets, as indices.
+    pub lanelet: &'a mut [u32],
+    /// Positions along the lanelets [m].
+    pub position_m: &'a mut [f64],
+    /// Speeds [m/s].
+    pub speed_mps: &'a mut [f64],
+    /// Accelerations [m/s²].
+    pub acceleration_mps2: &'a mut [f32],
+    /// Positions of the centres, to the east [m].
+    pub x_m: &'a mut [f64],
+    /// Positions of the centres, to the north [m].
+    pub y_m: &'a mut [f64],
+    /// Heights of the centres [m].
+    pub z_m: &'a mut [f64],
+    /// Headings [rad].
+    pub heading_rad: &'a mut [f64],
 }
 
 /// A walk along the lanelets of a chain.
@@ -124,7 +144,7 @@ impl Rows<'_> {
 
 /// The first `count` rows of a column, which are no longer in `rest`.
 #[inline(always)]
-fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+pub(super) fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let count = count.min(rest.len());
     let (taken, others) = std::mem::take(rest).split_at_mut(count);
     *rest = others;
@@ -153,9 +173,21 @@ impl Walk<'_> {
 impl World {
     /// Fills `columns` with all vehicles, in the order of [`World::vehicles`].
     pub fn columns(&self, columns: &mut Columns) {
-        columns.resize(self.traffic.crowd());
-        let Columns { id, lanelet, position_m, speed_mps, acceleration_mps2, .. } = &mut *columns;
-        let mut rows = Rows { id, lanelet, position_m, speed_mps, acceleration_mps2 };
+        self.fill(&mut columns.rows(self.crowd()));
+        self.drivers(columns);
+    }
+
+    /// Vehicles on the road. They are counted already.
+    pub fn crowd(&self) -> usize {
+        self.traffic.crowd() + self.traffic.externals().off_road()
+    }
+
+    /// Fills as many of the next `rows` as there are vehicles, in the order of [`World::vehicles`]. If there are fewer
+    /// rows, the last vehicles are left out.
+    pub fn fill(&self, rows: &mut Rows) {
+        if !rows.x_m.is_empty() {
+            self.fill_poses(rows);
+        }
         for (lane, chain) in self.traffic.lanes().iter().zip(&self.roads.network().chains) {
             if lane.motions().is_empty() {
                 continue;
@@ -168,36 +200,10 @@ impl World {
             }
             rows.fill(motions, &mut walk);
         }
-        self.add_off_road(columns);
-        self.poses(columns);
-        self.drivers(columns);
-    }
-
-    /// Adds the vehicles that users drive off the road.
-    fn add_off_road(&self, columns: &mut Columns) {
         for external in self.traffic.externals().all() {
             let Some(entry) = external.off_road() else { continue };
-            let (lanelet, along) = self.roads.network().chain(external.at.chain).lanelet(entry.motion.x);
-            columns.id.push(entry.motion.id);
-            columns.lanelet.push(lanelet.0);
-            columns.position_m.push(along);
-            columns.speed_mps.push(entry.motion.speed);
-            columns.acceleration_mps2.push(entry.motion.acceleration);
-        }
-    }
-
-    /// Fills the columns of the poses, if they are wanted.
-    fn poses(&self, columns: &mut Columns) {
-        let Columns { x_m, y_m, z_m, heading_rad, has_poses, .. } = columns;
-        if !*has_poses {
-            return;
-        }
-        [&mut *x_m, &mut *y_m, &mut *z_m, &mut *heading_rad].into_iter().for_each(Vec::clear);
-        for pose in self.vehicles().map(|it| it.pose()) {
-            x_m.push(pose.at.x);
-            y_m.push(pose.at.y);
-            z_m.push(pose.at.z);
-            heading_rad.push(pose.heading);
+            let mut walk = Walk::along(self.roads.network().chain(external.at.chain));
+            rows.fill(std::slice::from_ref(&entry.motion), &mut walk);
         }
     }
 

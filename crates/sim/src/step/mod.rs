@@ -10,13 +10,15 @@
 //!   drive; `see_standing.rs` what others know of them; `recorded.rs` those that a recording moves; `put_obstacle.rs`
 //!   what stands on the road and is no vehicle
 //! * `work.rs` the threads and their memory
+//! * `template.rs` many worlds of one kind
 //! * `checkpoint.rs` and `seal.rs` the state of a world as bytes
-//! * `queries.rs`, `columns.rs`, `vehicle.rs` and `index.rs` what a world tells of itself
+//! * `queries.rs`, `columns.rs`, `column_poses.rs`, `vehicle.rs` and `index.rs` what a world tells of itself
 
 pub(crate) mod advance;
 pub(crate) mod carry_out;
 pub(crate) mod change_roads;
 pub(crate) mod checkpoint;
+pub(crate) mod column_poses;
 pub(crate) mod columns;
 pub(crate) mod command;
 pub(crate) mod command_error;
@@ -50,6 +52,7 @@ pub(crate) mod settings;
 pub(crate) mod show_rears;
 pub(crate) mod switch_lights;
 pub(crate) mod take_off;
+pub(crate) mod template;
 pub(crate) mod transfer;
 pub(crate) mod vehicle;
 pub(crate) mod wait_cycles;

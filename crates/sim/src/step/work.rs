@@ -31,6 +31,15 @@ impl Work {
         })
     }
 
+    /// Forgets the last steps, and keeps its memory.
+    pub(super) fn begin_again(&mut self) {
+        for plan in &mut self.plans {
+            plan.clear();
+            plan.distance = 0.0;
+        }
+        self.reset_counters(Counters::default());
+    }
+
     /// The outbox of all threads, after it was gathered.
     pub(super) fn outbox(&mut self) -> &mut Outbox {
         &mut self.outboxes[0]

@@ -26,6 +26,7 @@ mod roads;
 mod safety;
 mod sideways;
 mod snapshot;
+mod templates;
 mod trip_log;
 mod trips;
 mod wings;

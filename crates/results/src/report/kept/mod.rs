@@ -7,7 +7,7 @@ mod reasons;
 mod trip_times;
 
 use laneweave_network::{Network, Position};
-use laneweave_scenario::scenario::{Prepared, Scenario};
+use laneweave_scenario::scenario::{Conditions, Prepared, Scenario};
 use laneweave_sim::{Event, Incident, LaneChangeKind, World};
 use laneweave_study::{LaneInTime, Sheet, rate_density, time_space};
 use serde::{Deserialize, Serialize};
@@ -51,7 +51,8 @@ pub struct Record {
 impl Record {
     /// Empty data for a run before it begins.
     pub(crate) fn of(scenario: &Scenario, prepared: &Prepared) -> Record {
-        let Prepared { world, origins, warmup_steps, steps, .. } = prepared;
+        let (world, Conditions { origins, warmup_steps, steps, .. }) =
+            (&prepared.world, &*prepared.conditions);
         let [begin, duration] = [*warmup_steps, *steps].map(|it| f64::from(it) * scenario.run.step_s);
         Record {
             boxes: Boxes::new(world, begin, duration),

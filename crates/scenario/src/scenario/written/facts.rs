@@ -52,7 +52,11 @@ impl Facts {
             ("map_options.driving_side", json!(side), Some("On this map:".into())),
             ("map_options.max_size_mb", json!(500.0), Some("For example:".into())),
             ("map_options.origin", origin(prepared), Some(origin_note(prepared).into())),
-            ("demand.vehicles_per_hour", json!(tenths(prepared.demand_veh_h)), Some(demand_note(prepared))),
+            (
+                "demand.vehicles_per_hour",
+                json!(tenths(prepared.conditions.demand_veh_h)),
+                Some(demand_note(prepared)),
+            ),
             (
                 "demand.profile",
                 json!([[0.0, 1.0], [900.0, 1.5]]),
@@ -62,6 +66,7 @@ impl Facts {
             ("commands", json!("out/commands.parquet"), Some("For example:".into())),
             ("model", json!("mcdm"), Some("For example:".into())),
             ("run.threads", json!(prepared.threads), Some("On this machine:".into())),
+            ("run.drivers_seed", json!(1), Some("For example:".into())),
             ("run.parameter_draw", json!(0), Some("For example, the first draw:".into())),
         ];
         let rows = [
@@ -83,11 +88,14 @@ impl Facts {
 }
 
 fn origin(prepared: &Prepared) -> Value {
-    prepared.origin.map_or(json!([49.0, 8.4]), |(latitude, longitude)| json!([latitude, longitude]))
+    prepared
+        .conditions
+        .origin
+        .map_or(json!([49.0, 8.4]), |(latitude, longitude)| json!([latitude, longitude]))
 }
 
 fn origin_note(prepared: &Prepared) -> &'static str {
-    match prepared.origin {
+    match prepared.conditions.origin {
         Some(_) => "On this map:",
         None => "Has no effect on this map: its coordinates are in metres. For example:",
     }
@@ -95,7 +103,7 @@ fn origin_note(prepared: &Prepared) -> &'static str {
 
 /// The default demand, and the estimated capacity.
 fn demand_note(prepared: &Prepared) -> String {
-    match prepared.basis {
+    match prepared.conditions.basis {
         Basis::Estimated => format!("Default: {}:", prepared.share_of_capacity()),
         _ => "On this map:".into(),
     }
@@ -112,7 +120,7 @@ fn entrances(prepared: &Prepared) -> Rows {
     } else {
         "The entrances of this map, with their default demand:"
     };
-    let all = &prepared.origins;
+    let all = &prepared.conditions.origins;
     Rows { note: note.into(), rows: all.iter().take(LISTED).map(row).collect(), omitted: beyond(all.len()) }
 }
 
@@ -140,7 +148,7 @@ fn od(prepared: &Prepared) -> Rows {
 fn pair(prepared: &Prepared) -> Option<(i64, i64, f64)> {
     let world = &prepared.world;
     let exits = world.demand().exits();
-    prepared.origins.iter().enumerate().find_map(|(from, (place, rate))| {
+    prepared.conditions.origins.iter().enumerate().find_map(|(from, (place, rate))| {
         let to = (0..exits.len()).find(|to| world.leads(from, *to))?;
         Some((place.id(), exits[to].id(), *rate))
     })
@@ -234,7 +242,8 @@ fn signals(prepared: &Prepared) -> Rows {
 /// The longest lanelet on which vehicles enter.
 fn longest_entrance(prepared: &Prepared) -> Option<&Lanelet> {
     let network = prepared.world.network();
-    let lanelets = prepared.origins.iter().filter_map(|(place, _)| network.lanelet_with(place.id()));
+    let lanelets =
+        prepared.conditions.origins.iter().filter_map(|(place, _)| network.lanelet_with(place.id()));
     lanelets.map(|it| &network.lanelets[it.at()]).max_by(|a, b| a.length().total_cmp(&b.length()))
 }
 
@@ -253,14 +262,16 @@ fn obstacle(prepared: &Prepared) -> Rows {
 
 fn external(prepared: &Prepared) -> Rows {
     let row =
-        longest_entrance(prepared).zip(prepared.styles.first()).map(|(lanelet, (style, _))| Row::Table {
-            header: "[[external]]",
-            keys: vec![
-                ("lanelet", json!(lanelet.id)),
-                ("position_m", json!(tenths(0.5 * lanelet.length()))),
-                ("speed_mps", json!(tenths(0.5 * lanelet.speed_limit))),
-                ("style", json!(style)),
-            ],
+        longest_entrance(prepared).zip(prepared.conditions.styles.first()).map(|(lanelet, (style, _))| {
+            Row::Table {
+                header: "[[external]]",
+                keys: vec![
+                    ("lanelet", json!(lanelet.id)),
+                    ("position_m", json!(tenths(0.5 * lanelet.length()))),
+                    ("speed_mps", json!(tenths(0.5 * lanelet.speed_limit))),
+                    ("style", json!(style)),
+                ],
+            }
         });
     Rows { note: "For example:".into(), rows: row.into_iter().collect(), omitted: 0 }
 }
@@ -273,7 +284,7 @@ fn styles() -> Rows {
 
 /// Trips start and end along lanes.
 fn is_closed(prepared: &Prepared) -> bool {
-    prepared.origins.iter().all(|(place, _)| matches!(place, Place::Inside(_)))
+    prepared.conditions.origins.iter().all(|(place, _)| matches!(place, Place::Inside(_)))
 }
 
 fn lanes(place: &Place) -> String {
