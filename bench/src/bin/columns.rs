@@ -1,8 +1,8 @@
 //! How much it costs to take 10,000 vehicles as columns, compared with their step.
 //!
-//! `cargo run --release -p laneweave-bench --bin columns` prints times. `… -- STEPS CALLS KIND` simulates so many steps,
-//! and takes the columns so many times after each, of one kind: 0 basic, 1 with poses, 2 complete. The difference of two
-//! runs under callgrind counts instructions.
+//! `cargo run --release -p laneweave-bench --bin columns` prints times. `… -- STEPS CALLS KIND` simulates so many
+//! steps, and takes the columns so many times after each, of one kind: 0 basic, 1 with poses, 2 complete. The
+//! difference of two runs under callgrind counts instructions.
 
 use std::error::Error;
 use std::time::Instant;

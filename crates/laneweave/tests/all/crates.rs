@@ -17,7 +17,7 @@ const LEVELS: [&[&str]; 12] = [
     &["laneweave"],
     &["studies"],
     &["viewer"],
-    &["cli"],
+    &["cli", "python"],
     &["bench"],
 ];
 

@@ -1,0 +1,44 @@
+"""laneweave: a microscopic traffic simulator whose drivers change lanes for human reasons.
+
+>>> import laneweave as lw
+>>> simulation = lw.Simulation("maps/ramps.osm", vehicles_per_hour=3000, seed=1)
+>>> simulation.run(60.0)
+>>> simulation.columns()["speed_mps"].mean()
+
+Keyword arguments are the keys of a scenario file: ``demand={"trucks": 0.1}``, ``styles={"aggressive": 1}``,
+``run={"step_s": 0.2}``. The most common ones need no table: ``vehicles_per_hour``, ``trucks``, ``seed``,
+``drivers_seed``, ``duration_s``, ``warmup_s``, ``step_s``, ``threads``.
+"""
+
+from ._errors import (
+    CommandError,
+    FileError,
+    LaneweaveError,
+    MapError,
+    NotFoundError,
+    RecordingError,
+    ScenarioError,
+    StateError,
+    StyleError,
+)
+from ._laneweave import SIGHT_COLUMNS, Fleet, Simulation, Template, __version__
+from ._results import Results, run
+
+__all__ = [
+    "SIGHT_COLUMNS",
+    "CommandError",
+    "FileError",
+    "Fleet",
+    "LaneweaveError",
+    "MapError",
+    "NotFoundError",
+    "RecordingError",
+    "Results",
+    "ScenarioError",
+    "Simulation",
+    "StateError",
+    "StyleError",
+    "Template",
+    "__version__",
+    "run",
+]

@@ -1,0 +1,232 @@
+"""The compiled part of the package."""
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal, Self, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+SIGHT_COLUMNS: list[str]
+"""The columns of a row of sight: whether there is a vehicle (1 or 0); where its centre is in the frame of the lane, ahead
+and to the left [m]; its speed [m/s]; its heading against that of the lane [rad]; its length and its width [m]."""
+
+Lateral: TypeAlias = Literal["driver", "keep", "left", "right"]
+
+class Simulation:
+    """A simulation: traffic on a map, which a program steps through, asks, and changes.
+
+    Threads do not share a simulation: a call from another one raises a StateError while it works.
+    """
+
+    def __new__(cls, source: str | PathLike[str], **keys: Any) -> Self:
+        """A simulation of the scenario (.toml) or the map in the file `source`, with these keys in place of its own.
+
+        Raises:
+            LaneweaveError: A file or a key cannot be used.
+        """
+
+    def step(self, count: int = 1) -> list[dict[str, Any]]:
+        """Simulates `count` steps, and returns what happened in them: dicts with the key "event", such as
+        "lane_change", which has its reasons."""
+
+    def run(self, until_s: float) -> None:
+        """Simulates steps until the time `until_s` [s], without their events. Ctrl-C ends it between two steps."""
+
+    def reset(self, seed: int) -> None:
+        """Begins anew with this seed; the drivers stay those with which the simulation was made."""
+
+    @property
+    def time_s(self) -> float:
+        """The present time [s]."""
+
+    @property
+    def end_s(self) -> float:
+        """The time at which a run of the scenario ends [s]."""
+
+    @property
+    def step_s(self) -> float:
+        """The length of a step [s]."""
+
+    @property
+    def scenario(self) -> dict[str, Any]:
+        """The scenario, with the keys of a scenario file."""
+
+    @property
+    def lanelets(self) -> list[int]:
+        """The ids of all lanelets."""
+
+    @property
+    def origins(self) -> list[tuple[int, float]]:
+        """Where trips start, by the smallest lanelet id, with the demand there [veh/h]."""
+
+    @property
+    def destinations(self) -> list[int]:
+        """Where trips can end, by the smallest lanelet id."""
+
+    @property
+    def styles(self) -> list[tuple[str, float]]:
+        """The styles with their weights."""
+
+    @property
+    def state_hash(self) -> int:
+        """A hash of the traffic: two simulations with the same hash have the same traffic."""
+
+    @property
+    def counts(self) -> dict[str, Any]:
+        """Counts of vehicles, trips and lane changes since the end of the warm-up."""
+
+    def __len__(self) -> int:
+        """Number of vehicles on the road."""
+
+    def vehicles(self) -> list[dict[str, Any]]:
+        """All vehicles on the road, in the order of their ids, with the names of the table trajectories."""
+
+    def vehicle(self, id: int) -> dict[str, Any] | None:
+        """A vehicle; None if it is not on the road."""
+
+    def columns(self, poses: bool = False) -> dict[str, npt.NDArray[Any]]:
+        """All vehicles as arrays of the shape (vehicles,): vehicle, lanelet, position_m [m], speed_mps [m/s],
+        acceleration_mps2 [m/s²]; with `poses` also x_m, y_m, z_m [m] and heading_rad [rad] of the centres."""
+
+    def insert(
+        self,
+        lanelet: int,
+        position_m: float,
+        speed_mps: float,
+        *,
+        class_: str = "car",
+        style: str | None = None,
+        destination: int | None = None,
+    ) -> int:
+        """Puts a vehicle on the road, at once, and returns its id. Its own driver drives it, with the first style of
+        the scenario if none is given.
+
+        Args:
+            lanelet: The lanelet on which its front bumper is.
+            position_m: Position of its front bumper along the lanelet [m].
+            speed_mps: Speed [m/s].
+
+        Raises:
+            CommandError: It cannot be there, or another vehicle could not stay clear of it.
+        """
+
+    def remove(self, id: int) -> None:
+        """Takes a vehicle off the road."""
+
+    def control(
+        self,
+        id: int,
+        *,
+        speed_mps: float | None = None,
+        acceleration_mps2: float | None = None,
+        most_mps: float | None = None,
+        lateral: Lateral = "driver",
+    ) -> None:
+        """Drives a vehicle in lanes until the next control: at a speed [m/s], with an acceleration [m/s²], or as its
+        driver does but no faster than a speed [m/s]. It keeps its lane, or changes once to the left or the right."""
+
+    def pose(self, id: int, x_m: float, y_m: float, heading_rad: float, speed_mps: float) -> None:
+        """Puts the centre of a vehicle at this pose [m, rad] at the end of the next step, and leaves it there."""
+
+    def release(self, id: int) -> None:
+        """Gives a vehicle back to its driver."""
+
+    def set_style(self, id: int, style: str) -> None:
+        """Gives the driver of a vehicle another style of the scenario."""
+
+    def set_destination(self, id: int, destination: int | None) -> None:
+        """Gives the driver of a vehicle another destination; None: it follows the road."""
+
+    def set_demand(self, origin: int, vehicles_per_hour: float) -> None:
+        """Sets the demand at an entrance from now on [veh/h]."""
+
+    def set_share(self, style: str, weight: float) -> None:
+        """Sets the weight of a style among those of the drivers who arrive from now on."""
+
+    def set_parameter(self, style: str, parameter: str, value: float) -> None:
+        """Changes a number of a style for all of its drivers, by its key in a style file."""
+
+    def close_lanelet(self, lanelet: int, is_closed: bool = True) -> None:
+        """Closes a lanelet to all vehicles, or opens it again."""
+
+    def explain(self, id: int) -> str | None:
+        """What a driver makes of its lanes and is about to do, in words; None if it is not on the road."""
+
+    def evaluate(self, id: int) -> dict[str, Any] | None:
+        """The same as data, with the yield and the weight of each incentive."""
+
+    def save(self) -> bytes:
+        """All state of the traffic."""
+
+    def restore(self, saved: bytes) -> None:
+        """Goes on from a saved state of a simulation of the same scenario and seed, bit for bit."""
+
+    def branch(self) -> Simulation:
+        """Another simulation in the same state, which goes on by itself."""
+
+    def close(self) -> None:
+        """Frees its memory. Nothing can be asked of it any more."""
+
+    def __enter__(self) -> Self: ...
+    def __exit__(self, *exception: object) -> None: ...
+
+class Template:
+    """A scenario of which many simulations are made, each with a seed of its own. They share map, routes, drivers and
+    demand."""
+
+    def __new__(cls, source: str | PathLike[str], **keys: Any) -> Self: ...
+    def spawn(self, seed: int) -> Simulation:
+        """A simulation at its start, with this seed of all random numbers."""
+
+    @property
+    def scenario(self) -> dict[str, Any]:
+        """The scenario, with the keys of a scenario file."""
+
+class Fleet:
+    """Many simulations of one template, stepped together on one pool of threads."""
+
+    def __new__(cls, template: Template, seeds: Sequence[int], threads: int = 1) -> Self: ...
+    def __len__(self) -> int:
+        """Number of simulations."""
+
+    def step(self, steps: int = 1) -> None:
+        """Simulates so many steps of each."""
+
+    def reset(self, number: int, seed: int) -> None:
+        """Lets one of the simulations begin anew with this seed."""
+
+    @property
+    def state_hashes(self) -> list[int]:
+        """The hashes of the traffic of all simulations."""
+
+    def control(
+        self, vehicles: npt.NDArray[np.uint32], speed_mps: npt.NDArray[np.float64], lateral: Lateral = "driver"
+    ) -> None:
+        """Drives the vehicle of each simulation at these speeds [m/s]; NaN leaves the speed to its driver."""
+
+    def columns(
+        self,
+        counts: npt.NDArray[np.uint32],
+        vehicle: npt.NDArray[np.uint32],
+        lanelet: npt.NDArray[np.uint32],
+        position_m: npt.NDArray[np.float64],
+        speed_mps: npt.NDArray[np.float64],
+        acceleration_mps2: npt.NDArray[np.float32],
+    ) -> int:
+        """Fills the arrays with the vehicles of all simulations, one simulation after the other, and `counts` with how
+        many each has. Returns how many there are."""
+
+    def sight(self, vehicles: npt.NDArray[np.uint32], sight: npt.NDArray[np.float32]) -> None:
+        """Fills `sight`, of the shape (simulations, 1 + nearest, len(SIGHT_COLUMNS)), with what the vehicle of each
+        simulation sees: itself first, then the others, the nearest first. Rows are 0 where there is nobody."""
+
+def run(
+    source: str | PathLike[str],
+    out: str | PathLike[str],
+    progress: Callable[[float], object] | None = None,
+    **keys: Any,
+) -> tuple[dict[str, Any], list[Path], list[str]]:
+    """Runs a scenario to its end; see laneweave.run."""

@@ -1,0 +1,132 @@
+"""A run with all its result files, and what is in them."""
+
+from __future__ import annotations
+
+import html
+import tempfile
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from . import _laneweave
+
+
+class Results:
+    """The results of a run: its summary, its tables and its report.
+
+    Attributes:
+        folder: The folder with all files.
+        summary: The summary, with the names and units of ``summary.json``.
+        files: The names of all files.
+        warnings: What did not happen as the scenario asks, in a line each.
+    """
+
+    def __init__(self, folder: Path, summary: dict[str, Any], files: list[Path], warnings: list[str]) -> None:
+        self.folder, self.summary, self.files, self.warnings = folder, summary, files, warnings
+
+    @property
+    def report(self) -> Path:
+        """The report, a page for any browser."""
+        return self.folder / "report.html"
+
+    @property
+    def tables(self) -> list[str]:
+        """The names of all tables."""
+        return sorted(it.stem for it in self.folder.iterdir() if it.suffix in (".parquet", ".csv"))
+
+    def table(self, name: str) -> Any:
+        """A table as a pandas data frame, or as one of polars or an Arrow table if pandas is not there.
+
+        Args:
+            name: Its name, such as ``"trajectories"``, ``"trips"`` or ``"lane_changes"``.
+
+        Raises:
+            KeyError: There is no such table.
+            ImportError: Nothing is installed that reads it.
+        """
+        paths = [self.folder / f"{name}{end}" for end in (".parquet", ".csv")]
+        path = next((it for it in paths if it.exists()), None)
+        if path is None:
+            raise KeyError(f"there is no table {name!r}; choose one of {', '.join(self.tables)}")
+        for read in (_by_pandas, _by_polars, _by_arrow):
+            try:
+                return read(path)
+            except ImportError:
+                continue
+        raise ImportError(f"nothing here reads {path.name}; install pandas with pyarrow, polars, or pyarrow")
+
+    def __repr__(self) -> str:
+        return f"<laneweave.Results in {self.folder}>"
+
+    def _repr_html_(self) -> str:
+        plain = {key: it for key, it in self.summary.items() if isinstance(it, (int, float, str))}
+        rows = "".join(f"<tr><th>{html.escape(key)}</th><td>{html.escape(str(it))}</td></tr>" for key, it in plain.items())
+        figures = "".join(it.read_text() for it in sorted(self.folder.glob("*.svg")))
+        return f"<table>{rows}</table>{figures}"
+
+
+def _by_pandas(path: Path) -> Any:
+    import pandas
+
+    return pandas.read_parquet(path) if path.suffix == ".parquet" else pandas.read_csv(path)
+
+
+def _by_polars(path: Path) -> Any:
+    import polars  # pyright: ignore
+
+    return polars.read_parquet(path) if path.suffix == ".parquet" else polars.read_csv(path)
+
+
+def _by_arrow(path: Path) -> Any:
+    from pyarrow import csv, parquet
+
+    return parquet.read_table(path) if path.suffix == ".parquet" else csv.read_csv(path)
+
+
+def run(
+    source: str | PathLike[str],
+    out: str | PathLike[str] | None = None,
+    *,
+    progress: bool = True,
+    **keys: Any,
+) -> Results:
+    """Runs a scenario, or a bare map, to its end, and writes all result files.
+
+    Args:
+        source: A scenario (.toml) or a map.
+        out: The folder of the results; a new temporary one if it is left out.
+        progress: Whether a bar shows how far it is, if ``tqdm`` is installed.
+        keys: Keys of a scenario file, in place of those of ``source``.
+
+    Raises:
+        LaneweaveError: The file, its map or a style cannot be used, or a key is wrong. Nothing is written then.
+        KeyboardInterrupt: Ctrl-C.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="laneweave-") if out is None else out)
+    bar = _bar() if progress else None
+    try:
+        summary, files, warnings = _laneweave.run(source, folder, bar.show if bar else None, **keys)
+    finally:
+        if bar:
+            bar.close()
+    return Results(folder, summary, files, warnings)
+
+
+class _Bar:
+    def __init__(self, made: Any) -> None:
+        self._made, self._done = made, 0.0
+
+    def show(self, share: float) -> None:
+        self._made.update(share - self._done)
+        self._done = share
+
+    def close(self) -> None:
+        self._made.close()
+
+
+def _bar() -> _Bar | None:
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    return _Bar(tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}", leave=False))

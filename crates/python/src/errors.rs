@@ -1,0 +1,67 @@
+//! Faults become exceptions with their place and their remedy, and so do panics: nothing ends the interpreter.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use laneweave::{Fault, FaultKind};
+use pyo3::prelude::*;
+
+/// A fault, or an exception that is there already.
+pub(crate) enum Failure {
+    Fault(Fault),
+    Raised(PyErr),
+}
+
+impl From<Fault> for Failure {
+    fn from(fault: Fault) -> Failure {
+        Failure::Fault(fault)
+    }
+}
+
+impl From<PyErr> for Failure {
+    fn from(raised: PyErr) -> Failure {
+        Failure::Raised(raised)
+    }
+}
+
+/// The name of the exception of a kind of faults.
+fn class(kind: FaultKind) -> &'static str {
+    match kind {
+        FaultKind::Map => "MapError",
+        FaultKind::Recording => "RecordingError",
+        FaultKind::Style => "StyleError",
+        FaultKind::Command => "CommandError",
+        FaultKind::State => "StateError",
+        FaultKind::NotFound => "NotFoundError",
+        FaultKind::File | FaultKind::Output | FaultKind::Closed => "FileError",
+        FaultKind::Syntax | FaultKind::Value => "ScenarioError",
+        FaultKind::Internal => "LaneweaveError",
+    }
+}
+
+impl Failure {
+    /// The exception, which knows its place and its remedy.
+    pub(crate) fn raise(self, py: Python<'_>) -> PyErr {
+        let fault = match self {
+            Failure::Fault(fault) => fault,
+            Failure::Raised(raised) => return raised,
+        };
+        let made = py.import("laneweave._errors").and_then(|it| it.getattr(class(fault.kind)));
+        let made = made.and_then(|it| it.call1((fault.place, fault.what, fault.remedy)));
+        made.map_or_else(|error| error, PyErr::from_value)
+    }
+}
+
+/// Does `work` without the lock of the interpreter. A panic becomes an exception.
+pub(crate) fn detached<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> PyResult<T> {
+    let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
+    done.unwrap_or_else(|panic| Err(Fault::bug("laneweave", said(&*panic)).into())).map_err(|it| it.raise(py))
+}
+
+/// What a panic said.
+fn said(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|it| (*it).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic".into())
+}

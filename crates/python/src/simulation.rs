@@ -1,0 +1,361 @@
+//! The class `Simulation`.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, TryLockError};
+
+use laneweave::{Class, Columns, Control, Event, Fault, FaultKind, NewVehicle, Parameter, VehicleId};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use serde::Serialize;
+
+use crate::control::control;
+use crate::errors::{Failure, detached};
+use crate::template::template;
+use crate::values::{Signals, array, named, to_python};
+
+/// A simulation: traffic on a map, which a program steps through, asks, and changes.
+#[pyclass(frozen, module = "laneweave")]
+pub(crate) struct Simulation {
+    /// `None` once it is closed.
+    held: Mutex<Option<laneweave::Simulation>>,
+    template: laneweave::Template,
+}
+
+impl Simulation {
+    pub(crate) fn spawned(template: laneweave::Template, seed: u64) -> Result<Simulation, Failure> {
+        Ok(Simulation { held: Mutex::new(Some(template.spawn(seed)?)), template })
+    }
+
+    /// Does `work` with the simulation, without the lock of the interpreter.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut laneweave::Simulation) -> Result<T, Failure> + Send,
+    ) -> PyResult<T> {
+        let refused =
+            |what: &str, remedy: &str| Fault::new("simulation", what, remedy).of_kind(FaultKind::State);
+        detached(py, || {
+            let mut held = self.held.try_lock().map_err(|error| match error {
+                TryLockError::WouldBlock => refused("another thread is using it", "give each thread its own"),
+                TryLockError::Poisoned(_) => refused("a mistake of laneweave broke it", "make a new one"),
+            })?;
+            work(held.as_mut().ok_or_else(|| refused("it is closed", "make a new one"))?)
+        })
+    }
+
+    /// The same, for what cannot fail.
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&laneweave::Simulation) -> T + Send,
+    ) -> PyResult<T> {
+        self.with(py, |it| Ok(work(it)))
+    }
+
+    /// The same, for plain data.
+    fn tell<T: Serialize + Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&laneweave::Simulation) -> T + Send,
+    ) -> PyResult<Py<PyAny>> {
+        let told = self.ask(py, work)?;
+        to_python(py, &told)
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    #[pyo3(signature = (source, **keys))]
+    fn new(py: Python<'_>, source: PathBuf, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Simulation> {
+        let template = template(py, source, keys)?;
+        let seed = template.scenario().run.seed;
+        detached(py, || Simulation::spawned(template, seed))
+    }
+
+    /// Simulates `count` steps, and returns what happened in them.
+    #[pyo3(signature = (count = 1))]
+    fn step(&self, py: Python<'_>, count: u32) -> PyResult<Py<PyAny>> {
+        let events = self.with(py, |it| {
+            let mut events: Vec<Event> = Vec::new();
+            let mut signals = Signals::new();
+            for _ in 0..count {
+                events.extend(it.step());
+                signals.check()?;
+            }
+            Ok(events)
+        })?;
+        to_python(py, &events)
+    }
+
+    /// Simulates steps until the time `until_s` [s], without their events.
+    fn run(&self, py: Python<'_>, until_s: f64) -> PyResult<()> {
+        self.with(py, |it| {
+            let mut signals = Signals::new();
+            it.observe::<Failure>(
+                until_s,
+                &mut [&mut |_: &laneweave::Simulation, _: &[Event]| signals.check()],
+            )
+        })
+    }
+
+    /// Begins anew with this seed; the drivers stay those of the template.
+    fn reset(&self, py: Python<'_>, seed: u64) -> PyResult<()> {
+        self.with(py, |it| Ok(it.reset(seed)?))
+    }
+
+    /// The present time [s].
+    #[getter]
+    fn time_s(&self, py: Python<'_>) -> PyResult<f64> {
+        self.ask(py, laneweave::Simulation::time_s)
+    }
+
+    /// The time at which a run of the scenario ends [s].
+    #[getter]
+    fn end_s(&self, py: Python<'_>) -> PyResult<f64> {
+        self.ask(py, laneweave::Simulation::end_s)
+    }
+
+    /// The length of a step [s].
+    #[getter]
+    fn step_s(&self, py: Python<'_>) -> PyResult<f64> {
+        self.ask(py, laneweave::Simulation::step_s)
+    }
+
+    /// The scenario as a dict, with the keys of a scenario file.
+    #[getter]
+    fn scenario(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.tell(py, |it| it.scenario().clone())
+    }
+
+    /// The ids of all lanelets.
+    #[getter]
+    fn lanelets(&self, py: Python<'_>) -> PyResult<Vec<i64>> {
+        self.ask(py, laneweave::Simulation::lanelets)
+    }
+
+    /// Where trips start, by the smallest lanelet id, with the demand there [veh/h].
+    #[getter]
+    fn origins(&self, py: Python<'_>) -> PyResult<Vec<(i64, f64)>> {
+        self.ask(py, laneweave::Simulation::origins)
+    }
+
+    /// Where trips can end, by the smallest lanelet id.
+    #[getter]
+    fn destinations(&self, py: Python<'_>) -> PyResult<Vec<i64>> {
+        self.ask(py, laneweave::Simulation::destinations)
+    }
+
+    /// The styles with their weights.
+    #[getter]
+    fn styles(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
+        self.ask(py, |it| it.styles().into_iter().map(|it| (it.name, it.weight)).collect())
+    }
+
+    /// Number of vehicles on the road.
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        self.ask(py, laneweave::Simulation::on_road)
+    }
+
+    /// A hash of the traffic: two simulations with the same hash have the same traffic.
+    #[getter]
+    fn state_hash(&self, py: Python<'_>) -> PyResult<u64> {
+        self.ask(py, laneweave::Simulation::state_hash)
+    }
+
+    /// Counts of vehicles, trips and lane changes since the end of the warm-up.
+    #[getter]
+    fn counts(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.tell(py, |it| *it.counts())
+    }
+
+    /// All vehicles on the road as dicts, in the order of their ids.
+    fn vehicles(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.tell(py, laneweave::Simulation::vehicles)
+    }
+
+    /// A vehicle as a dict; None if it is not on the road.
+    fn vehicle(&self, py: Python<'_>, id: VehicleId) -> PyResult<Py<PyAny>> {
+        self.tell(py, |it| it.vehicle(id))
+    }
+
+    /// All vehicles as numpy arrays by the names of the columns of the table trajectories; with poses on request.
+    #[pyo3(signature = (poses = false))]
+    fn columns<'py>(&self, py: Python<'py>, poses: bool) -> PyResult<Bound<'py, PyDict>> {
+        let (columns, lanelets) = self.ask(py, |it| {
+            let mut columns = if poses { Columns::with_poses() } else { Columns::default() };
+            it.columns(&mut columns);
+            let lanelets = &it.network().lanelets;
+            let ids: Vec<i64> = columns.lanelet.iter().map(|it| lanelets[*it as usize].id).collect();
+            (columns, ids)
+        })?;
+        let dict = PyDict::new(py);
+        dict.set_item("vehicle", array(py, columns.id))?;
+        dict.set_item("lanelet", array(py, lanelets))?;
+        dict.set_item("position_m", array(py, columns.position_m))?;
+        dict.set_item("speed_mps", array(py, columns.speed_mps))?;
+        dict.set_item("acceleration_mps2", array(py, columns.acceleration_mps2))?;
+        if poses {
+            dict.set_item("x_m", array(py, columns.x_m))?;
+            dict.set_item("y_m", array(py, columns.y_m))?;
+            dict.set_item("z_m", array(py, columns.z_m))?;
+            dict.set_item("heading_rad", array(py, columns.heading_rad))?;
+        }
+        Ok(dict)
+    }
+
+    /// Puts a vehicle on the road, at once, and returns its id. Its own driver drives it.
+    #[pyo3(signature = (lanelet, position_m, speed_mps, *, class_ = "car", style = None, destination = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+    fn insert(
+        &self,
+        py: Python<'_>,
+        lanelet: i64,
+        position_m: f64,
+        speed_mps: f64,
+        class_: &str,
+        style: Option<String>,
+        destination: Option<i64>,
+    ) -> PyResult<VehicleId> {
+        let class: Class = named("class_", class_).map_err(|it| it.raise(py))?;
+        self.with(py, |it| {
+            let first = || it.styles().into_iter().next().map_or_else(String::new, |it| it.name);
+            let style = style.unwrap_or_else(first);
+            Ok(it.insert(NewVehicle { lanelet, position_m, speed_mps, class, style, destination })?)
+        })
+    }
+
+    /// Takes a vehicle off the road.
+    fn remove(&self, py: Python<'_>, id: VehicleId) -> PyResult<()> {
+        self.with(py, |it| Ok(it.remove(id)?))
+    }
+
+    /// Drives a vehicle in lanes until the next control: at a speed, with an acceleration, or as its driver does but no
+    /// faster than a speed; and keeps its lane or changes to the "left" or the "right".
+    #[pyo3(signature = (id, *, speed_mps = None, acceleration_mps2 = None, most_mps = None, lateral = "driver"))]
+    fn control(
+        &self,
+        py: Python<'_>,
+        id: VehicleId,
+        speed_mps: Option<f64>,
+        acceleration_mps2: Option<f64>,
+        most_mps: Option<f64>,
+        lateral: &str,
+    ) -> PyResult<()> {
+        let lateral = lateral.to_owned();
+        self.with(py, move |it| {
+            Ok(it.control(id, control(speed_mps, acceleration_mps2, most_mps, &lateral)?)?)
+        })
+    }
+
+    /// Puts the centre of a vehicle at a pose at the end of the next step, and leaves it there.
+    fn pose(
+        &self,
+        py: Python<'_>,
+        id: VehicleId,
+        x_m: f64,
+        y_m: f64,
+        heading_rad: f64,
+        speed_mps: f64,
+    ) -> PyResult<()> {
+        let pose = Control::Pose { x: x_m, y: y_m, heading: heading_rad, speed: speed_mps };
+        self.with(py, |it| Ok(it.control(id, pose)?))
+    }
+
+    /// Gives a vehicle back to its driver.
+    fn release(&self, py: Python<'_>, id: VehicleId) -> PyResult<()> {
+        self.with(py, |it| Ok(it.control(id, Control::DRIVER)?))
+    }
+
+    /// Gives the driver of a vehicle another style.
+    fn set_style(&self, py: Python<'_>, id: VehicleId, style: String) -> PyResult<()> {
+        self.with(py, |it| Ok(it.set_style(id, style)?))
+    }
+
+    /// Gives the driver of a vehicle another destination; None: it follows the road.
+    #[pyo3(signature = (id, destination))]
+    fn set_destination(&self, py: Python<'_>, id: VehicleId, destination: Option<i64>) -> PyResult<()> {
+        self.with(py, |it| Ok(it.set_destination(id, destination)?))
+    }
+
+    /// Sets the demand at an entrance from now on [veh/h].
+    fn set_demand(&self, py: Python<'_>, origin: i64, vehicles_per_hour: f64) -> PyResult<()> {
+        self.with(py, |it| Ok(it.set_demand(origin, vehicles_per_hour)?))
+    }
+
+    /// Sets the weight of a style among those of the drivers who arrive from now on.
+    fn set_share(&self, py: Python<'_>, style: String, weight: f64) -> PyResult<()> {
+        self.with(py, |it| Ok(it.set_share(style, weight)?))
+    }
+
+    /// Changes a number of a style for all of its drivers, such as "change.courtesy.weight".
+    fn set_parameter(&self, py: Python<'_>, style: String, parameter: &str, value: f64) -> PyResult<()> {
+        let parameter: Parameter = named("parameter", parameter).map_err(|it| it.raise(py))?;
+        self.with(py, |it| Ok(it.set_parameter(style, parameter, value)?))
+    }
+
+    /// Closes a lanelet to all vehicles, or opens it again.
+    #[pyo3(signature = (lanelet, is_closed = true))]
+    fn close_lanelet(&self, py: Python<'_>, lanelet: i64, is_closed: bool) -> PyResult<()> {
+        self.with(py, |it| Ok(it.close_lanelet(lanelet, is_closed)?))
+    }
+
+    /// What a driver makes of its lanes and is about to do, in words; None if it is not on the road.
+    fn explain(&self, py: Python<'_>, id: VehicleId) -> PyResult<Option<String>> {
+        self.ask(py, |it| it.explain(id))
+    }
+
+    /// The same as a dict, with the yield and weight of each incentive.
+    fn evaluate(&self, py: Python<'_>, id: VehicleId) -> PyResult<Py<PyAny>> {
+        self.tell(py, |it| it.evaluate(id))
+    }
+
+    /// All state of the traffic, as bytes.
+    fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let saved = self.with(py, |it| Ok(it.save()?))?;
+        Ok(PyBytes::new(py, &saved))
+    }
+
+    /// Goes on from a saved state of a simulation of the same scenario and seed, bit for bit.
+    fn restore(&self, py: Python<'_>, saved: &[u8]) -> PyResult<()> {
+        let saved = saved.to_vec();
+        self.with(py, move |it| Ok(it.restore(&saved)?))
+    }
+
+    /// Another simulation in the same state, which goes on by itself.
+    fn branch(&self, py: Python<'_>) -> PyResult<Simulation> {
+        self.with(py, |it| {
+            let branch = Simulation::spawned(self.template.clone(), it.scenario().run.seed)?;
+            if let Ok(mut held) = branch.held.lock()
+                && let Some(other) = held.as_mut()
+            {
+                other.take_state_of(it)?;
+            }
+            Ok(branch)
+        })
+    }
+
+    /// Frees its memory. Nothing can be asked of it any more.
+    fn close(&self) {
+        if let Ok(mut held) = self.held.try_lock() {
+            *held = None;
+        }
+    }
+
+    fn __enter__(this: Py<Simulation>) -> Py<Simulation> {
+        this
+    }
+
+    #[pyo3(signature = (*_exception))]
+    fn __exit__(&self, _exception: &Bound<'_, pyo3::types::PyTuple>) {
+        self.close();
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let told = self.ask(py, |it| (it.scenario().map.display().to_string(), it.time_s(), it.on_road()));
+        told.map_or_else(
+            |_| "<laneweave.Simulation: closed or in use>".into(),
+            |(map, time, count)| format!("<laneweave.Simulation of {map} at {time:.1} s: {count} vehicles>"),
+        )
+    }
+}
