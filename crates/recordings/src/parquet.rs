@@ -5,10 +5,11 @@ use std::io::{self, BufRead, Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use parquet::errors::ParquetError;
-use parquet::file::metadata::{ColumnChunkMetaData, RowGroupMetaData};
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::FileReader;
 use parquet::record::reader::RowIter;
 use parquet::record::{Field, Row};
+
+use laneweave_study::sound;
 
 use crate::error::RecordingError;
 
@@ -30,16 +31,7 @@ impl ParquetLines {
     /// If it is damaged, or compressed in a way that is not supported.
     pub(crate) fn of(file: File) -> Result<ParquetLines, RecordingError> {
         let opened = guarded(|| {
-            let reader = SerializedFileReader::new(file)?;
-            if !reader
-                .metadata()
-                .row_groups()
-                .iter()
-                .flat_map(RowGroupMetaData::columns)
-                .all(is_within_a_file)
-            {
-                return Err(damaged());
-            }
+            let reader = sound::open(file)?;
             let schema = reader.metadata().file_metadata().schema_descr();
             let mut header = Vec::new();
             for (number, column) in schema.columns().iter().enumerate() {
@@ -116,18 +108,8 @@ fn quoted(text: &str, out: &mut Vec<u8>) {
     out.push(b'"');
 }
 
-/// Whether the place of a column can be one in a file. The reader of the crate panics if not.
-fn is_within_a_file(column: &ColumnChunkMetaData) -> bool {
-    column.dictionary_page_offset().unwrap_or_else(|| column.data_page_offset()) >= 0
-        && column.compressed_size() >= 0
-}
-
-fn damaged() -> ParquetError {
-    ParquetError::General("it is damaged".into())
-}
-
 /// What `read` returns. The reader of the crate panics on some damaged files: that is an error, too.
 fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, ParquetError> {
     let result = catch_unwind(AssertUnwindSafe(read));
-    result.unwrap_or_else(|_| Err(damaged()))
+    result.unwrap_or_else(|_| Err(sound::damaged()))
 }

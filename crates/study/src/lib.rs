@@ -28,6 +28,8 @@ pub use score::{count_score, crps};
 pub use signal::{Signal, SignalQueue};
 pub use spread::{chance_of_more, middle_95, quantile, share_between};
 pub use statistics::{Estimate, Interval, Moments, geh, mean, poisson_interval, required_replications};
+#[cfg(feature = "parquet")]
+pub use table::sound;
 pub use table::{
     Cell, Cells, Column, Format, Kind, PartialFile, ReadError, TableError, TableWriter, TextTable, seconds,
 };

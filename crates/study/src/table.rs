@@ -34,6 +34,10 @@ mod csv;
 mod parquet;
 mod partial;
 mod read;
+#[cfg(feature = "parquet")]
+pub mod sound;
+#[cfg(feature = "parquet")]
+mod thrift;
 
 use std::io;
 use std::path::{Path, PathBuf};

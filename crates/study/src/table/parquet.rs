@@ -11,13 +11,13 @@ use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Ty
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::FileReader;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::record::Field;
 use parquet::schema::types::{ColumnPath, Type};
 
 use super::read::{ReadError, TextTable};
-use super::{Cell, Cells, Column, Kind};
+use super::{Cell, Cells, Column, Kind, sound};
 
 /// Rows that are held in memory and written together.
 const ROW_GROUP: usize = 1 << 14;
@@ -277,12 +277,12 @@ fn write_column<T: DataType>(
 pub(super) fn read(file: File) -> Result<TextTable, ReadError> {
     // The reader of the crate panics on some damaged files.
     let read = catch_unwind(AssertUnwindSafe(|| read_rows(file)));
-    let read = read.unwrap_or_else(|_| Err(ParquetError::General("it is damaged".into())));
+    let read = read.unwrap_or_else(|_| Err(sound::damaged()));
     read.map_err(|error| ReadError::Content(format!("it cannot be read as Parquet: {error}")))
 }
 
 fn read_rows(file: File) -> Result<TextTable, ParquetError> {
-    let reader = SerializedFileReader::new(file)?;
+    let reader = sound::open(file)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let columns = schema.columns().iter().map(|it| it.name().to_owned()).collect();
     let mut table = TextTable { columns, rows: Vec::new() };
