@@ -39,7 +39,7 @@ fn a_spawned_world_and_one_that_was_reset_are_worlds_of_their_seed() {
 
 #[test]
 fn what_a_user_changes_in_a_world_stays_in_it_until_the_world_is_reset() {
-    let template = Template::from(world("grid.osm", 1));
+    let template = Template::from(world("motorway_2_lanes.osm", 1));
     let untouched = driven(template.spawn(3, 1).unwrap(), 600);
     let mut changed = template.spawn(3, 1).unwrap();
     let ids: Vec<i64> = changed.network().lanelets.iter().map(|it| it.id).collect();
