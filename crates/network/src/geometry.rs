@@ -249,6 +249,15 @@ mod tests {
     }
 
     #[test]
+    fn a_walk_finds_the_points_of_its_line_forwards_backwards_and_beyond_the_ends() {
+        let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (3.0, 9.0)]);
+        let mut walk = corner.walk();
+        for station in [-3.0, 0.0, 9.5, 10.0, 10.5, 40.0, 15.0, 14.0, 3.0, 22.0, -1.0] {
+            assert_eq!(walk.at(station), corner.at(station), "{station} m");
+        }
+    }
+
+    #[test]
     fn a_point_lies_at_its_station_and_beyond_the_ends() {
         let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)]);
         assert_eq!(corner.length(), 15.0);

@@ -1,6 +1,7 @@
 //! Faults become exceptions with their place and their remedy, and so do panics: nothing ends the interpreter.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use laneweave::{Fault, FaultKind};
 use pyo3::prelude::*;
@@ -49,6 +50,22 @@ impl Failure {
         let made = made.and_then(|it| it.call1((fault.place, fault.what, fault.remedy)));
         made.map_or_else(|error| error, PyErr::from_value)
     }
+}
+
+/// What is held there, while no other thread uses it. `place` is its name.
+///
+/// # Errors
+/// If another thread uses it, or a panic has broken it.
+pub(crate) fn locked<'a, T>(held: &'a Mutex<T>, place: &str) -> Result<MutexGuard<'a, T>, Failure> {
+    held.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => refused(place, "another thread is using it", "give each thread its own"),
+        TryLockError::Poisoned(_) => refused(place, "a mistake of laneweave broke it", "make a new one"),
+    })
+}
+
+/// What is not possible in the present state.
+pub(crate) fn refused(place: &str, what: &str, remedy: &str) -> Failure {
+    Fault::new(place, what, remedy).of_kind(FaultKind::State).into()
 }
 
 /// Does `work` without the lock of the interpreter. A panic becomes an exception.

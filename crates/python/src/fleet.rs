@@ -1,13 +1,13 @@
 //! The class `Fleet`.
 
-use std::sync::{Mutex, TryLockError};
+use std::sync::Mutex;
 
-use laneweave::{Fault, FaultKind, Rows, VehicleId};
+use laneweave::{Fault, Rows, VehicleId};
 use numpy::{PyReadonlyArray1, PyReadwriteArray1, PyReadwriteArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::control::control;
-use crate::errors::{Failure, detached};
+use crate::errors::{Failure, detached, locked};
 use crate::template::Template;
 
 /// Many simulations of one template, stepped together on one pool of threads.
@@ -23,14 +23,7 @@ impl Fleet {
         py: Python<'_>,
         work: impl FnOnce(&mut laneweave::Fleet) -> Result<T, Failure> + Send,
     ) -> PyResult<T> {
-        let refused = |what: &str, remedy: &str| Fault::new("fleet", what, remedy).of_kind(FaultKind::State);
-        detached(py, || {
-            let mut held = self.held.try_lock().map_err(|error| match error {
-                TryLockError::WouldBlock => refused("another thread is using it", "give each thread its own"),
-                TryLockError::Poisoned(_) => refused("a mistake of laneweave broke it", "make a new one"),
-            })?;
-            work(&mut held)
-        })
+        detached(py, || work(&mut *locked(&self.held, "fleet")?))
     }
 }
 

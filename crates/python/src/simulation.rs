@@ -1,15 +1,15 @@
 //! The class `Simulation`.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, TryLockError};
+use std::sync::Mutex;
 
-use laneweave::{Class, Columns, Control, Event, Fault, FaultKind, NewVehicle, Parameter, VehicleId};
+use laneweave::{Class, Columns, Control, Event, NewVehicle, Parameter, VehicleId};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
 
 use crate::control::control;
-use crate::errors::{Failure, detached};
+use crate::errors::{Failure, detached, locked, refused};
 use crate::template::template;
 use crate::values::{Signals, array, named, to_python};
 
@@ -32,14 +32,9 @@ impl Simulation {
         py: Python<'_>,
         work: impl FnOnce(&mut laneweave::Simulation) -> Result<T, Failure> + Send,
     ) -> PyResult<T> {
-        let refused =
-            |what: &str, remedy: &str| Fault::new("simulation", what, remedy).of_kind(FaultKind::State);
         detached(py, || {
-            let mut held = self.held.try_lock().map_err(|error| match error {
-                TryLockError::WouldBlock => refused("another thread is using it", "give each thread its own"),
-                TryLockError::Poisoned(_) => refused("a mistake of laneweave broke it", "make a new one"),
-            })?;
-            work(held.as_mut().ok_or_else(|| refused("it is closed", "make a new one"))?)
+            let mut held = locked(&self.held, "simulation")?;
+            work(held.as_mut().ok_or_else(|| refused("simulation", "it is closed", "make a new one"))?)
         })
     }
 

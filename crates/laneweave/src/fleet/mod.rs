@@ -112,10 +112,10 @@ impl Fleet {
     /// poses may be empty.
     pub fn columns(&self, mut rows: Rows, counts: &mut [u32]) -> Result<usize, Fault> {
         check_length("counts", counts.len(), self.len())?;
-        let total: usize = self.simulations.iter().map(Simulation::crowd).sum();
+        let total: usize = self.simulations.iter().map(Simulation::on_road).sum();
         check_rows(&rows, total)?;
         for (simulation, count) in self.simulations.iter().zip(counts) {
-            *count = simulation.crowd() as u32;
+            *count = simulation.on_road() as u32;
             simulation.fill(&mut rows);
         }
         Ok(total)

@@ -76,11 +76,6 @@ impl Simulation {
         self.world().columns(columns);
     }
 
-    /// Vehicles on the road.
-    pub(crate) fn crowd(&self) -> usize {
-        self.world().crowd()
-    }
-
     /// Fills as many of the next `rows` as there are vehicles.
     pub(crate) fn fill(&self, rows: &mut Rows) {
         self.world().fill(rows);

@@ -173,13 +173,9 @@ impl Walk<'_> {
 impl World {
     /// Fills `columns` with all vehicles, in the order of [`World::vehicles`].
     pub fn columns(&self, columns: &mut Columns) {
-        self.fill(&mut columns.rows(self.crowd()));
+        let count = self.traffic.crowd() + self.traffic.externals().off_road();
+        self.fill(&mut columns.rows(count));
         self.drivers(columns);
-    }
-
-    /// Vehicles on the road. They are counted already.
-    pub fn crowd(&self) -> usize {
-        self.traffic.crowd() + self.traffic.externals().off_road()
     }
 
     /// Fills as many of the next `rows` as there are vehicles, in the order of [`World::vehicles`]. If there are fewer
