@@ -38,8 +38,8 @@ pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};
 pub use laneweave_scenario::{
     AtItsEnd, Bottleneck, COMMAND_COLUMNS, Capacity, Departures, Fault, FaultKind, HandOver, Played, Player,
-    Recorded, Remark, Script, Source, Start, Windows, Written, did_you_mean, elsewhere, open_recording,
-    open_recordings, open_windows, style, unreadable,
+    Recorded, Remark, Script, Source, Start, Windows, Written, did_you_mean, elsewhere, in_words,
+    open_recording, open_recordings, open_windows, style, unreadable,
 };
 pub use laneweave_sim::{
     BrakingCause, Class, Columns, Control, IncidentKind, Intention, LaneChangeKind, Lateral, Longitudinal,

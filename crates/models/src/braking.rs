@@ -12,6 +12,10 @@ pub const HARDEST_BRAKING: f64 = 8.0;
 /// Braking beyond this is hard [m/s²]: drivers avoid it (ours; usual braking is below 3 m/s²).
 pub const HARD_BRAKING: f64 = 4.0;
 
+/// Nearer than this to what is ahead, nobody comes nearer [m] (ours). Otherwise who creeps up to what stands halves the
+/// gap again and again, until numbers end and it is 0.
+const NEAREST: f64 = 0.01;
+
 /// Whether a follower at `speed` [m/s] is secure behind `ahead`, with time step `dt` [s].
 #[inline]
 pub fn is_secure(speed: f64, ahead: Ahead, dt: f64) -> bool {
@@ -26,11 +30,12 @@ fn room(speed: f64, ahead: Ahead, dt: f64) -> f64 {
 }
 
 /// Whether a driver at `speed` may be at `next_speed` one step later and still be secure, whatever the leader
-/// does: `v'²/2b + 3/2 v'·dt ≤ s + v_l²/2b − v·dt/2`, speeds changing linearly within the step.
+/// does: `v'²/2b + 3/2 v'·dt ≤ s + v_l²/2b − v·dt/2`, speeds changing linearly within the step; and `v' ≤ v_l` within a
+/// centimetre.
 #[inline]
 pub fn stays_secure(speed: f64, next_speed: f64, ahead: Ahead, dt: f64) -> bool {
     let needed = next_speed * next_speed / (2.0 * HARDEST_BRAKING) + 1.5 * next_speed * dt;
-    needed <= room(speed, ahead, dt)
+    needed <= room(speed, ahead, dt) && (ahead.gap >= NEAREST || next_speed <= ahead.speed)
 }
 
 /// The highest speed [m/s] of the next step that satisfies [`stays_secure`]; never below the speed after braking at
@@ -39,6 +44,7 @@ pub fn secure_speed(speed: f64, ahead: Ahead, dt: f64) -> f64 {
     let reaction = 1.5 * dt;
     let under_root = reaction * reaction + 2.0 * room(speed, ahead, dt).max(0.0) / HARDEST_BRAKING;
     let highest = HARDEST_BRAKING * (under_root.sqrt() - reaction);
+    let highest = if ahead.gap < NEAREST { highest.min(ahead.speed) } else { highest };
     highest.max(speed - HARDEST_BRAKING * dt).max(0.0)
 }
 
@@ -86,6 +92,22 @@ mod tests {
             let gap = ahead.gap + 0.5 * (leader + leader_next - speed - next) * dt;
             let needed = (next * next - leader_next * leader_next) / 16.0 + next * dt;
             prop_assert!((gap - needed).abs() < 1e-9, "gap {gap} needed {needed}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn who_creeps_up_to_what_stands_leaves_a_gap_for_ever(
+            speed in 0.0..5.0_f64, spare in 0.0..3.0_f64, dt in 0.02..0.5_f64,
+        ) {
+            let (mut speed, mut gap) = (speed, speed * speed / (2.0 * HARDEST_BRAKING) + speed * dt + spare + 1e-9);
+            for _ in 0..2000 {
+                let next = secure_speed(speed, Ahead::standing(gap), dt);
+                gap -= 0.5 * (speed + next) * dt;
+                speed = next;
+            }
+            // Positions are this exact, a few hundred metres along a lane.
+            prop_assert!(speed == 0.0 && gap > 1e-10, "gap {gap}");
         }
     }
 

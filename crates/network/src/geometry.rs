@@ -175,7 +175,7 @@ impl Polyline {
 
     /// A walk along the line: for many stations one after the other, each near the one before.
     pub fn walk(&self) -> LineWalk<'_> {
-        LineWalk { line: self, after: 1 }
+        LineWalk { line: self, after: 1, heading: None }
     }
 
     /// Station of the first place where the line through `points` crosses this one, seen from above.
@@ -209,13 +209,43 @@ pub struct LineWalk<'a> {
     line: &'a Polyline,
     /// The number of the point after the last place.
     after: usize,
+    /// The direction of the segment that ends at the point with this number.
+    heading: Option<(usize, f64)>,
 }
 
 impl LineWalk<'_> {
     /// The same as [`Polyline::at`].
     #[inline]
     pub fn at(&mut self, station: f64) -> Point {
-        let Polyline { points, stations } = self.line;
+        self.go_to(station);
+        self.on_segment(station)
+    }
+
+    /// The direction of the segment on which the stations `front` and `rear` lie, and the point half-way between them;
+    /// `None` if they lie on two segments. Directions are counter-clockwise from east [rad].
+    #[inline]
+    pub fn straight(&mut self, [front, rear]: [f64; 2]) -> Option<(Point, f64)> {
+        self.go_to(front);
+        let before = self.after - 1;
+        // The first segment goes on before the line begins.
+        if before > 0 && rear < self.line.stations[before] {
+            return None;
+        }
+        let heading = match self.heading {
+            Some((of, heading)) if of == self.after => heading,
+            _ => {
+                let [from, to] = [self.line.points[before], self.line.points[self.after]];
+                (to.y - from.y).atan2(to.x - from.x)
+            }
+        };
+        self.heading = Some((self.after, heading));
+        Some((self.on_segment(0.5 * (front + rear)), heading))
+    }
+
+    /// Goes to the segment with this station.
+    #[inline]
+    fn go_to(&mut self, station: f64) {
+        let stations = &self.line.stations;
         let last = stations.len() - 1;
         while self.after < last && stations[self.after] <= station {
             self.after += 1;
@@ -223,6 +253,12 @@ impl LineWalk<'_> {
         while self.after > 1 && stations[self.after - 1] > station {
             self.after -= 1;
         }
+    }
+
+    /// The point at `station` along the segment where the walk is.
+    #[inline]
+    fn on_segment(&self, station: f64) -> Point {
+        let Polyline { points, stations } = self.line;
         let [from, to] = [self.after - 1, self.after];
         points[from].towards(&points[to], (station - stations[from]) / (stations[to] - stations[from]))
     }
@@ -246,6 +282,18 @@ mod tests {
 
     fn line(points: &[(f64, f64)]) -> Polyline {
         Polyline::new(points.iter().map(|(x, y)| Point::new(*x, *y, 0.0))).unwrap()
+    }
+
+    #[test]
+    fn a_walk_tells_the_direction_of_a_segment_if_both_stations_lie_on_it() {
+        let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)]);
+        let mut walk = corner.walk();
+        for [front, rear] in [[4.0, 1.0], [9.0, -2.0], [10.0, 9.0], [14.0, 9.9], [14.0, 11.0], [19.0, 12.0]] {
+            let found = walk.straight([front, rear]);
+            let is_bent = front >= 10.0 && rear < 10.0;
+            let expected = (corner.at(0.5 * (front + rear)), corner.heading(front));
+            assert_eq!(found, (!is_bent).then_some(expected), "{front} m to {rear} m");
+        }
     }
 
     #[test]

@@ -47,7 +47,9 @@ impl Failure {
             Failure::Raised(raised) => return raised,
         };
         let made = py.import("laneweave._errors").and_then(|it| it.getattr(class(fault.kind)));
-        let made = made.and_then(|it| it.call1((fault.place, fault.what, fault.remedy)));
+        // An option of a command is a keyword argument here.
+        let place = fault.place.strip_prefix("--").map_or(fault.place.clone(), |it| it.replace('-', "_"));
+        let made = made.and_then(|it| it.call1((place, fault.what, fault.remedy)));
         made.map_or_else(|error| error, PyErr::from_value)
     }
 }
@@ -73,8 +75,13 @@ pub(crate) fn detached<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
-    let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
-    done.unwrap_or_else(|panic| Err(Fault::bug("laneweave", said(&*panic)).into())).map_err(|it| it.raise(py))
+    py.detach(|| caught(work)).map_err(|it| it.raise(py))
+}
+
+/// Does `work`. A panic becomes a fault.
+pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    let done = catch_unwind(AssertUnwindSafe(work));
+    done.unwrap_or_else(|panic| Err(Fault::bug("laneweave", said(&*panic)).into()))
 }
 
 /// What a panic said.

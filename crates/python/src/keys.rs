@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use laneweave::scenario::{Origin, Scenario};
-use laneweave::{Fault, FaultKind};
+use laneweave::scenario::{MapOptions, Origin, Scenario};
+use laneweave::{Fault, FaultKind, did_you_mean, in_words};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use serde_json::{Map, Value};
+use pyo3::types::{PyDict, PyString};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use crate::errors::Failure;
+use crate::map::Map;
 
 /// Keys that are so common that they need no table.
 const SHORT: [(&str, &str); 8] = [
@@ -21,24 +23,42 @@ const SHORT: [(&str, &str); 8] = [
     ("step_s", "run"),
     ("threads", "run"),
 ];
+/// The table of styles, which is given as a whole: its keys are names.
+const STYLES: &str = "styles";
+/// The place of a fault.
+const PLACE: &str = "keyword arguments";
 
-/// Tables that are given as a whole: their keys are names.
-const WHOLE: [&str; 1] = ["styles"];
+type Table = serde_json::Map<String, Value>;
+
+/// A map that was read, or the file of a map or of a scenario.
+#[derive(FromPyObject)]
+pub(crate) enum Given<'py> {
+    /// A map that was read.
+    #[pyo3(transparent, annotation = "Map")]
+    Map(PyRef<'py, Map>),
+    /// A file.
+    #[pyo3(transparent, annotation = "path")]
+    File(PathBuf),
+}
 
 /// A scenario, or a bare map, with these keys in place of its own.
 pub(crate) struct Asked {
-    source: PathBuf,
-    keys: Value,
+    pub(crate) source: PathBuf,
+    options: Option<MapOptions>,
+    keys: Keys,
 }
 
 impl Asked {
-    /// The scenario or the map in the file `source`, with the keyword arguments `keys`.
+    /// What is `given`, with the keyword arguments `keys`.
     ///
     /// # Errors
-    /// If a value is neither a number, a text, a list nor a dict.
-    pub(crate) fn new(source: PathBuf, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Asked> {
-        let keys = keys.map_or(Ok(Value::Object(Map::new())), |it| pythonize::depythonize(it))?;
-        Ok(Asked { source, keys })
+    /// If a value is neither a number, a text, a list, a dict nor a style.
+    pub(crate) fn new(given: Given<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Asked> {
+        let (source, options) = match given {
+            Given::Map(map) => (map.path.clone(), Some(map.options.clone())),
+            Given::File(path) => (path, None),
+        };
+        Ok(Asked { source, options, keys: Keys::new(keys)? })
     }
 
     /// The scenario, with the source of its values.
@@ -46,25 +66,92 @@ impl Asked {
     /// # Errors
     /// If the file cannot be read, or is no scenario; or if a key is unknown, or its value of another kind.
     pub(crate) fn read(self) -> Result<(Scenario, Origin), Failure> {
-        let (scenario, origin) = Origin::open(&self.source)?;
-        let mut values = serde_json::to_value(&scenario).map_err(|it| Fault::bug("scenario", it))?;
-        let Value::Object(keys) = self.keys else { return Ok((scenario, origin)) };
-        for (key, value) in keys {
-            let table = SHORT.iter().find(|it| it.0 == key);
-            match table {
-                Some((_, table)) => {
-                    merge(&mut values[*table], Value::Object([(key, value)].into_iter().collect()))
-                }
-                None => merge(&mut values, Value::Object([(key, value)].into_iter().collect())),
+        let (mut scenario, origin) = Origin::open(&self.source)?;
+        scenario.map_options = self.options.unwrap_or(scenario.map_options);
+        self.keys.put(&scenario, origin)
+    }
+}
+
+/// Keys of a scenario, by their tables.
+#[derive(Clone)]
+pub(crate) struct Keys {
+    values: Table,
+    /// The texts of styles that are given themselves, by their names.
+    styles: Vec<(String, String)>,
+}
+
+impl Keys {
+    /// The keyword arguments `keys`.
+    ///
+    /// # Errors
+    /// If a value is neither a number, a text, a list, a dict nor a style.
+    pub(crate) fn new(keys: Option<&Bound<'_, PyDict>>) -> PyResult<Keys> {
+        let mut all = Keys { values: Table::new(), styles: Vec::new() };
+        for (key, value) in keys.into_iter().flat_map(PyDictMethods::iter) {
+            let key: String = key.extract()?;
+            let value = match value.cast::<PyDict>() {
+                Ok(styles) if key == STYLES => all.mixture(styles)?,
+                _ => pythonize::depythonize(&value)?,
+            };
+            all.values.insert(key, value);
+        }
+        Ok(all)
+    }
+
+    /// The weights of styles, by their names. The texts of styles that are given themselves are kept.
+    fn mixture(&mut self, styles: &Bound<'_, PyDict>) -> PyResult<Value> {
+        let mut weights = Table::new();
+        for (style, weight) in styles {
+            let name: String = if style.is_instance_of::<PyString>() {
+                style.extract()?
+            } else {
+                let name: String = style.getattr("name")?.extract()?;
+                self.styles.push((name.clone(), style.call_method0("to_toml")?.extract()?));
+                name
+            };
+            weights.insert(name, pythonize::depythonize(&weight)?);
+        }
+        Ok(Value::Object(weights))
+    }
+
+    /// `scenario` with these keys in place of its own.
+    ///
+    /// # Errors
+    /// If a key is unknown, or its value of another kind.
+    pub(crate) fn put(self, scenario: &Scenario, origin: Origin) -> Result<(Scenario, Origin), Failure> {
+        let mut all = serde_json::to_value(scenario).map_err(|it| Fault::bug("scenario", it))?;
+        for (key, value) in self.values {
+            let short = SHORT.iter().find(|it| it.0 == key);
+            let known = all.as_object().into_iter().flat_map(|it| it.keys().map(String::as_str));
+            if short.is_none() && !known.clone().any(|it| it == key) {
+                let names = known.chain(SHORT.iter().map(|it| it.0));
+                return Err(wrong(format!("unknown key {key:?}"), did_you_mean(&key, names)));
+            }
+            let one = Value::Object([(key, value)].into_iter().collect());
+            match short {
+                Some((_, table)) => merge(&mut all[*table], one),
+                None => merge(&mut all, one),
             }
         }
-        let scenario = serde_json::from_value(values).map_err(|error| {
-            let remedy =
-                "use the keys of a scenario file, such as vehicles_per_hour=3000 or demand={\"trucks\": 0.1}";
-            Fault::new("keyword arguments", error, remedy).of_kind(FaultKind::Value)
-        })?;
-        Ok((scenario, origin))
+        let origin = self.styles.iter().fold(origin, |origin, (name, text)| origin.with_style(name, text));
+        Ok((fitting(all)?, origin))
     }
+}
+
+/// Values as a `T`.
+///
+/// # Errors
+/// If a key is unknown, or its value of another kind.
+pub(crate) fn fitting<T: DeserializeOwned>(values: Value) -> Result<T, Failure> {
+    serde_json::from_value(values).map_err(|error| {
+        let message = error.to_string();
+        let (what, remedy) = in_words(&message).unwrap_or_else(|| (message, "correct the value".into()));
+        wrong(what, remedy)
+    })
+}
+
+fn wrong(what: String, remedy: String) -> Failure {
+    Fault::new(PLACE, what, remedy).of_kind(FaultKind::Value).into()
 }
 
 /// Puts `new` into `old`, table by table.
@@ -72,7 +159,7 @@ fn merge(old: &mut Value, new: Value) {
     match (old, new) {
         (Value::Object(old), Value::Object(new)) => {
             for (key, value) in new {
-                if WHOLE.contains(&key.as_str()) {
+                if key == STYLES {
                     old.insert(key, value);
                 } else {
                     merge(old.entry(key).or_insert(Value::Null), value);

@@ -4,17 +4,26 @@
 //! * `keys.rs` keyword arguments become a scenario
 //! * `simulation.rs`, `template.rs` and `fleet.rs` the classes
 //! * `control.rs` how vehicles are driven
-//! * `run.rs` a run with all its result files
+//! * `map.rs`, `style.rs` and `view.rs` maps, styles, and the page in the browser
+//! * `task.rs` long work, which shows its progress and can be interrupted
+//! * `run.rs` and `studies.rs` runs, comparisons, fits and replays, with all their files
+//! * `command.rs` the command `laneweave`
 //! * `values.rs` values between the two languages
 
+mod command;
 mod control;
 mod errors;
 mod fleet;
 mod keys;
+mod map;
 mod run;
 mod simulation;
+mod studies;
+mod style;
+mod task;
 mod template;
 mod values;
+mod view;
 
 use pyo3::prelude::*;
 
@@ -26,6 +35,16 @@ fn _laneweave(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulation::Simulation>()?;
     module.add_class::<template::Template>()?;
     module.add_class::<fleet::Fleet>()?;
+    module.add_class::<map::Map>()?;
+    module.add_class::<view::View>()?;
     module.add_function(wrap_pyfunction!(run::run, module)?)?;
+    module.add_function(wrap_pyfunction!(studies::compare_models, module)?)?;
+    module.add_function(wrap_pyfunction!(studies::fit_styles, module)?)?;
+    module.add_function(wrap_pyfunction!(studies::replay_recordings, module)?)?;
+    module.add_function(wrap_pyfunction!(style::style_text, module)?)?;
+    module.add_function(wrap_pyfunction!(style::new_style, module)?)?;
+    module.add_function(wrap_pyfunction!(style::style_of, module)?)?;
+    module.add_function(wrap_pyfunction!(view::view_files, module)?)?;
+    module.add_function(wrap_pyfunction!(command::command, module)?)?;
     Ok(())
 }

@@ -1,17 +1,20 @@
 //! The class `Simulation`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use laneweave::{Class, Columns, Control, Event, NewVehicle, Parameter, VehicleId};
+use laneweave_viewer::picture;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
 
 use crate::control::control;
 use crate::errors::{Failure, detached, locked, refused};
+use crate::keys::Given;
 use crate::template::template;
 use crate::values::{Signals, array, named, to_python};
+use crate::view::{GivenCamera, View, live};
 
 /// A simulation: traffic on a map, which a program steps through, asks, and changes.
 #[pyclass(frozen, module = "laneweave")]
@@ -24,6 +27,13 @@ pub(crate) struct Simulation {
 impl Simulation {
     pub(crate) fn spawned(template: laneweave::Template, seed: u64) -> Result<Simulation, Failure> {
         Ok(Simulation { held: Mutex::new(Some(template.spawn(seed)?)), template })
+    }
+
+    /// Another simulation in the same state.
+    fn branched(&self, base: &laneweave::Simulation) -> Result<laneweave::Simulation, Failure> {
+        let mut branch = self.template.spawn(base.scenario().run.seed)?;
+        branch.take_state_of(base)?;
+        Ok(branch)
     }
 
     /// Does `work` with the simulation, without the lock of the interpreter.
@@ -62,7 +72,7 @@ impl Simulation {
 impl Simulation {
     #[new]
     #[pyo3(signature = (source, **keys))]
-    fn new(py: Python<'_>, source: PathBuf, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Simulation> {
+    fn new(py: Python<'_>, source: Given<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Simulation> {
         let template = template(py, source, keys)?;
         let seed = template.scenario().run.seed;
         detached(py, || Simulation::spawned(template, seed))
@@ -320,14 +330,30 @@ impl Simulation {
     /// Another simulation in the same state, which goes on by itself.
     fn branch(&self, py: Python<'_>) -> PyResult<Simulation> {
         self.with(py, |it| {
-            let branch = Simulation::spawned(self.template.clone(), it.scenario().run.seed)?;
-            if let Ok(mut held) = branch.held.lock()
-                && let Some(other) = held.as_mut()
-            {
-                other.take_state_of(it)?;
-            }
-            Ok(branch)
+            let branch = Mutex::new(Some(self.branched(it)?));
+            Ok(Simulation { held: branch, template: self.template.clone() })
         })
+    }
+
+    /// A picture of the traffic as it is now, as PNG.
+    #[pyo3(signature = (camera, size))]
+    fn png<'py>(
+        &self,
+        py: Python<'py>,
+        camera: GivenCamera,
+        size: [u32; 2],
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let camera = camera.camera().map_err(|it| it.raise(py))?;
+        let picture = self.with(py, |it| {
+            let mut shown = live(self.branched(it)?, Path::new(""))?;
+            Ok(picture(&mut shown, camera, size)?)
+        })?;
+        Ok(PyBytes::new(py, &picture))
+    }
+
+    /// The page in the browser with a branch of it, which goes on by itself.
+    fn view(&self, py: Python<'_>, saved: PathBuf, port: u16) -> PyResult<View> {
+        self.with(py, |it| View::of(Box::new(live(self.branched(it)?, &saved)?), port))
     }
 
     /// Frees its memory. Nothing can be asked of it any more.

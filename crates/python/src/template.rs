@@ -1,12 +1,10 @@
 //! The class `Template`.
 
-use std::path::PathBuf;
-
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::detached;
-use crate::keys::Asked;
+use crate::keys::{Asked, Given};
 use crate::simulation::Simulation;
 use crate::values::to_python;
 
@@ -16,10 +14,10 @@ pub(crate) struct Template {
     pub(crate) made: laneweave::Template,
 }
 
-/// A template of the scenario or the map in the file `source`.
+/// A template of the scenario or the map `source`.
 pub(crate) fn template(
     py: Python<'_>,
-    source: PathBuf,
+    source: Given<'_>,
     keys: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<laneweave::Template> {
     let asked = Asked::new(source, keys)?;
@@ -33,7 +31,7 @@ pub(crate) fn template(
 impl Template {
     #[new]
     #[pyo3(signature = (source, **keys))]
-    fn new(py: Python<'_>, source: PathBuf, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Template> {
+    fn new(py: Python<'_>, source: Given<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Template> {
         Ok(Template { made: template(py, source, keys)? })
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use laneweave::{Fault, FaultKind};
+use laneweave::{Fault, FaultKind, in_words};
 use numpy::{Element, PyArray1};
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -43,10 +43,17 @@ pub(crate) fn to_python<T: Serialize + ?Sized>(py: Python<'_>, data: &T) -> PyRe
     Ok(pythonize::pythonize(py, data)?.unbind())
 }
 
+/// Plain data as a value that can be handed from thread to thread.
+pub(crate) fn plain<T: Serialize + ?Sized>(data: &T) -> Result<Value, Failure> {
+    serde_json::to_value(data).map_err(|error| Fault::bug("values", error).into())
+}
+
 /// The value with this name.
 pub(crate) fn named<T: DeserializeOwned>(argument: &str, name: &str) -> Result<T, Failure> {
     serde_json::from_value(Value::String(name.to_owned())).map_err(|error| {
-        let fault = Fault::new(argument, format!("{name:?}: {error}"), "choose one of the known names");
-        Failure::Fault(fault.of_kind(FaultKind::Command))
+        let message = error.to_string();
+        let (what, remedy) =
+            in_words(&message).unwrap_or_else(|| (message, "choose one of the known names".into()));
+        Fault::new(argument, what, remedy).of_kind(FaultKind::Command).into()
     })
 }

@@ -24,8 +24,9 @@ def test_a_run_has_a_summary_tables_and_a_report(ramps: Path, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("keys", "kind", "words"),
     [
-        ({"vehicles_per_hou": 3}, lw.ScenarioError, "unknown field"),
+        ({"vehicles_per_hou": 3}, lw.ScenarioError, 'unknown key "vehicles_per_hou"; did you mean "vehicles_per_hour"'),
         ({"demand": {"trucks": 3}}, lw.ScenarioError, "choose 0 to 1"),
+        ({"demand": {"truks": 0.3}}, lw.ScenarioError, 'did you mean "trucks"'),
         ({"styles": {"agressive": 1}}, lw.StyleError, 'did you mean "aggressive"'),
         ({"seed": "one"}, lw.ScenarioError, "invalid type"),
         ({"seed": object()}, TypeError, "object"),

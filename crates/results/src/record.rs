@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use laneweave_scenario::scenario::{Origin, Output, Replay, Scenario};
-use laneweave_scenario::style::{built_in, find};
+use laneweave_scenario::style::built_in;
 use laneweave_scenario::{Fault, Source};
 use laneweave_study::Format;
 use serde::Deserialize;
@@ -127,13 +127,13 @@ fn replayed_mut(scenario: &mut Scenario) -> impl Iterator<Item = &mut PathBuf> {
 fn keep_styles(scenario: &Scenario, origin: &Origin, dir: &Path) -> Result<BTreeMap<String, f64>, Fault> {
     let mut kept = BTreeMap::new();
     for (name, weight) in &scenario.styles {
-        if built_in(name).is_some() {
+        let Source { path, text } = origin.style(name)?;
+        if built_in(name).is_some_and(|it| it.text == text) {
             kept.insert(name.clone(), *weight);
             continue;
         }
         let folder = dir.join(STYLES);
         fs::create_dir_all(&folder).map_err(|error| Fault::refused(&folder, "made", &error))?;
-        let Source { path, text } = find(name, origin.style_folder(), || origin.place(&["styles", name]))?;
         let stem = path.file_stem().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
         let key = |name: &str| format!("{STYLES}/{name}");
         let name = keep_text(&folder, [&stem, "toml"], &text, |it| kept.contains_key(&key(it)))?;
@@ -241,12 +241,9 @@ pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault
 /// # Errors
 /// If a style file cannot be read.
 pub fn style_texts(scenario: &Scenario, origin: &Origin) -> Result<Vec<(String, u64)>, Fault> {
-    let text = |name: &String| {
-        find(name, origin.style_folder(), || origin.place(&["styles", name])).map(|it| it.text)
-    };
     let mut styles = Vec::new();
     for (name, weight) in &scenario.styles {
-        styles.push((text(name)?, weight.to_bits()));
+        styles.push((origin.style(name)?.text, weight.to_bits()));
     }
     styles.sort();
     Ok(styles)

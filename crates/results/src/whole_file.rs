@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use laneweave_scenario::Fault;
 use laneweave_study::PartialFile;
+use serde::Serialize;
 
 /// Writes a file that is complete or not there at all.
 ///
@@ -17,6 +18,15 @@ pub fn write_whole(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result
         partial.complete()
     };
     write().map_err(|error| Fault::refused(path, "written", &error))
+}
+
+/// Data as JSON, to be read by people, too.
+///
+/// # Errors
+/// If it cannot be written so, which is a mistake of laneweave.
+pub fn json(data: &impl Serialize) -> Result<String, Fault> {
+    let text = serde_json::to_string_pretty(data);
+    text.map(|it| it + "\n").map_err(|error| Fault::bug("JSON", error))
 }
 
 /// The files, if all were written; otherwise the first fault, at the places of all that are missing. One that cannot

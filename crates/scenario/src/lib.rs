@@ -20,5 +20,5 @@ pub use recording::{elsewhere, open_recording, open_recordings, unreadable};
 pub use remarks::{Remark, remarks};
 pub use replay::{AtItsEnd, Departures, HandOver, Played, Player, Recorded, Start};
 pub use script::{COMMAND_COLUMNS, Script, Written, refused};
-pub use source::Source;
+pub use source::{Source, in_words};
 pub use windows::{Named, Windows, joined, open_windows};

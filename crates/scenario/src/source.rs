@@ -111,7 +111,7 @@ impl Source {
 }
 
 /// A message of serde on a value that does not fit: what is wrong, and the remedy. `None` for another message.
-pub(crate) fn in_words(message: &str) -> Option<(String, String)> {
+pub fn in_words(message: &str) -> Option<(String, String)> {
     // An unknown name comes first in backticks, then the known ones.
     let mut quoted = message.split('`').skip(1).step_by(2);
     let (name, known): (&str, Vec<&str>) = (quoted.next().unwrap_or(""), quoted.collect());

@@ -10,6 +10,7 @@ pub mod experiments;
 pub mod fit;
 mod parallel;
 pub mod replay;
+pub mod routes;
 
 pub use draws::{DrawnMeasure, Draws, PER_DRAW, draws};
 pub use parallel::in_parallel;

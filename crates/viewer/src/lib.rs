@@ -22,11 +22,11 @@ pub use asked::{Asked, LONGEST};
 pub use export::export;
 pub use frame::{Slots, View};
 pub use recent::Recent;
-pub use render::{Camera, Pictures, render};
+pub use render::{Camera, Pictures, picture, render};
 pub use scene::{Scene, Surroundings};
-pub use server::{Address, Server, Token};
+pub use server::{Address, Doorway, Server, Token};
 pub use snapshot::{Body, Colour, Seen, Snapshot};
-pub use source::{Hand, Live, Recorded, Rerun, Source};
+pub use source::{Hand, Live, Recorded, Rerun, Shown, Source};
 
 /// The page, in one file. It is generated from `web/`.
 const PAGE: &str = include_str!("../page/index.html");

@@ -11,6 +11,7 @@ use laneweave::record::{Record, SCENARIO};
 use laneweave::study::{Column, Format, TableWriter, seconds};
 use laneweave_studies::branch::{Differences, Setting, Twins, page};
 
+use super::Call;
 use super::complain;
 use super::say;
 
@@ -32,7 +33,7 @@ pub(crate) struct BranchArguments {
 }
 
 impl BranchArguments {
-    pub(crate) fn execute(self) -> Result<(), Fault> {
+    pub(crate) fn execute(self, call: &Call) -> Result<(), Fault> {
         let BranchArguments { out, at, settings, into } = self;
         let record = Record::open(&out)?;
         let folder = into.unwrap_or_else(|| out.join(BRANCH));
@@ -68,7 +69,7 @@ impl BranchArguments {
                 text += &format!("  {name:<17}{}\n", path.display());
             }
             let report = folder.join(REPORT);
-            write_whole(&report, &page(&twins, &differences, &settings, &super::given()).to_html())?;
+            write_whole(&report, &page(&twins, &differences, &settings, &call.line).to_html())?;
             text += &format!("  {:<17}{}\n", "report", report.display());
         }
         say(&text)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::maps::{FileKind, Size};
-use laneweave::output::write_whole;
+use laneweave::output::{json, write_whole};
 use laneweave::scenario::{DrivingSide, Law, MapOptions, open_map};
 use laneweave::{Fault, Windows, open_windows};
 use laneweave_studies::check::{
@@ -201,9 +201,4 @@ struct Both {
     map: Report,
     #[serde(skip_serializing_if = "Option::is_none")]
     recording: Option<RecordingReport>,
-}
-
-pub(super) fn json(value: &impl Serialize) -> Result<String, Fault> {
-    let text = serde_json::to_string_pretty(value);
-    text.map(|it| it + "\n").map_err(|error| Fault::bug("JSON", error))
 }

@@ -7,22 +7,18 @@ use std::thread::available_parallelism;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::folder::{FIT, FIT_REPORT};
+use laneweave::folder::FIT_REPORT;
 use laneweave::models::Reading as Formulas;
-use laneweave::output::write_whole;
+use laneweave::output::json;
 use laneweave_calibration::Classes;
-use laneweave_studies::fit::{
-    FIGURES, FITTED, FitReport, Judged, Observed, Request, Rollouts, figures, page,
-};
+use laneweave_studies::fit::{Judged, MOST_CLASSES, Observed, Request, Rollouts};
 
-use super::check::{Reading, json};
+use super::Call;
+use super::check::Reading;
 use super::complain;
 use super::numbers::{number, seed, within};
 use super::progress::ShareDone;
 use super::say;
-
-/// Most classes of drivers.
-const MOST_CLASSES: usize = 6;
 
 #[derive(Debug, Args)]
 pub(crate) struct FitArguments {
@@ -113,9 +109,7 @@ fn judged(observed: &Observed, count: u32) -> Result<Option<Judged>, Fault> {
 }
 
 impl FitArguments {
-    pub(crate) fn execute(self) -> Result<(), Fault> {
-        self.check_lead()?;
-        self.check_position_error()?;
+    pub(crate) fn execute(self, call: &Call) -> Result<(), Fault> {
         let observed = self.request().observe()?;
         observed.problems().iter().for_each(|it| complain(format_args!("warning: {it}")));
         if self.plan {
@@ -124,12 +118,11 @@ impl FitArguments {
         }
         let judged = self.judge.map(|count| judged(&observed, count)).transpose()?.flatten();
         let report = observed.fit_beside(judged)?;
-        self.write(&report)?;
+        let styles = report.write(&self.out, &self.recordings, &call.line)?;
         if self.json {
             return say(&json(&report)?);
         }
-        let styles: Vec<String> =
-            report.styles.iter().map(|it| self.style_path(&it.name).display().to_string()).collect();
+        let styles: Vec<String> = styles.iter().map(|it| it.display().to_string()).collect();
         let page = self.out.join(FIT_REPORT);
         say(&format!("{}\nstyles: {}\nreport: {}\n", report.to_text(), styles.join(", "), page.display()))
     }
@@ -150,64 +143,5 @@ impl FitArguments {
             seed: self.seed,
             ..Request::new(self.recordings.clone())
         }
-    }
-
-    fn check_lead(&self) -> Result<(), Fault> {
-        /// Longest time between begin and crossing [s].
-        const LONGEST: f64 = 10.0;
-        match self.lead {
-            Some(lead) if !(0.0..=LONGEST).contains(&lead) => Err(Fault::new(
-                "--lead",
-                format!("{lead} s is no time before a crossing"),
-                "choose 0 to 10 s",
-            )),
-            _ => Ok(()),
-        }
-    }
-
-    fn check_position_error(&self) -> Result<(), Fault> {
-        /// Largest error [m]: beyond it lanes are not told apart.
-        const LARGEST: f64 = 1.0;
-        match self.position_error {
-            Some(error) if !(error > 0.0 && error <= LARGEST) => Err(Fault::new(
-                "--position-error",
-                format!("{error} m is no error of positions that can be corrected"),
-                "choose more than 0, and 1 m at most",
-            )),
-            _ => Ok(()),
-        }
-    }
-
-    fn style_path(&self, name: &str) -> PathBuf {
-        self.out.join(format!("{name}.toml"))
-    }
-
-    /// Removes what an earlier fit left: it may have had more classes.
-    fn remove_earlier(&self) -> Result<(), Fault> {
-        let numbered = (1..=MOST_CLASSES).map(|it| format!("{FITTED}-{it}"));
-        let styles = numbered.chain([FITTED.to_owned()]).map(|it| self.style_path(&it));
-        let others = [FIT, FIT_REPORT].into_iter().chain(FIGURES).map(|it| self.out.join(it));
-        for path in styles.chain(others) {
-            match std::fs::remove_file(&path) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(Fault::refused(&path, "removed", &error));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
-    }
-
-    fn write(&self, report: &FitReport) -> Result<(), Fault> {
-        std::fs::create_dir_all(&self.out).map_err(|error| Fault::refused(&self.out, "created", &error))?;
-        self.remove_earlier()?;
-        for style in &report.styles {
-            write_whole(&self.style_path(&style.name), &style.text)?;
-        }
-        let names: Vec<String> = self.recordings.iter().map(|it| it.display().to_string()).collect();
-        let page = page(report, &names.join(", "), &super::given());
-        write_whole(&self.out.join(FIT_REPORT), &page.to_html())?;
-        figures(report).iter().try_for_each(|(name, svg)| write_whole(&self.out.join(name), svg))?;
-        write_whole(&self.out.join(FIT), &json(report)?)
     }
 }

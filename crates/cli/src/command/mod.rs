@@ -3,7 +3,6 @@
 mod branch;
 mod check;
 mod compare;
-mod doorway;
 mod examples;
 mod explain;
 mod fit;
@@ -27,10 +26,10 @@ mod tips;
 mod view;
 
 use std::any::TypeId;
+use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -40,6 +39,24 @@ use laneweave::scenario::{Origin, Scenario};
 
 pub(crate) use stop::refuse_large_files;
 pub(crate) use tips::with_tip;
+
+/// Exit code of a command that did what was asked.
+pub(crate) const SUCCESS: u8 = 0;
+
+/// The call of a command.
+pub(crate) struct Call {
+    /// When it began.
+    started: Instant,
+    /// The command line as it was given.
+    line: String,
+}
+
+impl Call {
+    pub(crate) fn new(started: Instant, arguments: &[OsString]) -> Call {
+        let given = arguments.iter().skip(1).map(|it| it.to_string_lossy().into_owned());
+        Call { started, line: command_line(given) }
+    }
+}
 
 /// Microscopic traffic whose drivers change lanes for human reasons.
 ///
@@ -133,28 +150,28 @@ impl Cli {
     ///
     /// # Errors
     /// On a wrong command line, and if it asks for help or for the version.
-    pub(crate) fn read() -> Result<Cli, clap::Error> {
-        Cli::from_arg_matches(&with_negative_values(Cli::command()).try_get_matches()?)
+    pub(crate) fn read(arguments: &[OsString]) -> Result<Cli, clap::Error> {
+        Cli::from_arg_matches(&with_negative_values(Cli::command()).try_get_matches_from(arguments)?)
     }
 
-    /// Does what the user asks for; `started` is when the process began.
-    pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
+    /// Does what the user asks for, and returns the exit code.
+    pub(crate) fn execute(self, call: &Call) -> Result<u8, Fault> {
         let done = match self.command {
             None => {
                 let (scenario, origin) = Origin::demo()?;
-                return run::run(&scenario, &origin, run::Screen::default(), started);
+                return run::run(&scenario, &origin, run::Screen::default(), call);
             }
-            Some(Command::Run(arguments)) => return arguments.execute(started),
+            Some(Command::Run(arguments)) => return arguments.execute(call),
             Some(Command::View(arguments)) => arguments.execute(),
             Some(Command::Render(arguments)) => arguments.execute(),
             Some(Command::Explain(arguments)) => arguments.execute(),
-            Some(Command::Branch(arguments)) => arguments.execute(),
-            Some(Command::Compare(arguments)) => arguments.execute(),
+            Some(Command::Branch(arguments)) => arguments.execute(call),
+            Some(Command::Compare(arguments)) => arguments.execute(call),
             Some(Command::Reproduce(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Observe(arguments)) => arguments.execute(),
-            Some(Command::Replay(arguments)) => return arguments.execute(),
-            Some(Command::Fit(arguments)) => arguments.execute(),
+            Some(Command::Replay(arguments)) => return arguments.execute(call),
+            Some(Command::Fit(arguments)) => arguments.execute(call),
             Some(Command::Recording(deed)) => deed.execute(),
             Some(Command::Routes(arguments)) => arguments.execute(),
             Some(Command::Scenario(deed)) => deed.execute(),
@@ -164,7 +181,7 @@ impl Cli {
             Some(Command::Completions(arguments)) => arguments.execute(Cli::command()),
             Some(Command::Man(arguments)) => arguments.execute(Cli::command()),
         };
-        done.map(|()| ExitCode::SUCCESS)
+        done.map(|()| SUCCESS)
     }
 }
 
@@ -180,9 +197,4 @@ pub(crate) fn say(text: &str) -> Result<(), Fault> {
 /// Writes a line to standard error. Where that is closed, nobody wants to know.
 pub(crate) fn complain(text: fmt::Arguments) {
     let _ = writeln!(io::stderr(), "{text}");
-}
-
-/// The command line as it was given.
-fn given() -> String {
-    command_line(std::env::args_os().skip(1).map(|it| it.to_string_lossy().into_owned()))
 }

@@ -10,12 +10,12 @@ use laneweave_viewer::{Camera, Pictures, render};
 
 use super::numbers::number;
 use super::say;
-use super::shown::Shown;
+use super::shown::ShownArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArguments {
     #[command(flatten)]
-    shown: Shown,
+    shown: ShownArguments,
     /// Folder of the pictures. Pictures in it with the same names are replaced.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, default_value = "frames")]
     out: PathBuf,
@@ -69,7 +69,7 @@ impl RenderArguments {
                 "choose more than 0 s",
             ));
         }
-        let mut source = shown.source(Path::new("saved"))?;
+        let mut source = shown.shown().source(Path::new("saved"))?;
         let asked = Pictures { camera, size, every_s: every, from_s: from, until_s: until };
         let count = render(&mut *source, asked, |number, _, picture| {
             fs::create_dir_all(&out).map_err(|error| Fault::refused(&out, "made", &error))?;

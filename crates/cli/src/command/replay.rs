@@ -2,28 +2,24 @@
 
 use std::num::NonZero;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::thread::available_parallelism;
 
 use clap::{Args, ValueHint};
-use laneweave::folder::{REPLAY, REPLAY_REPORT};
 use laneweave::maps::FileKind;
-use laneweave::output::write_whole;
+use laneweave::output::json;
 use laneweave::scenario::{MapOptions, Origin, Replay, Scenario};
 use laneweave::style::Model;
 use laneweave::{Fault, Simulation};
-use laneweave_studies::replay::{Asked, page, replay, scenario};
+use laneweave_studies::replay::{Asked, USUAL, replay, scenario};
 
-use super::check::{Reading, json};
+use super::check::Reading;
 use super::complain;
 use super::numbers::{number, seed, within};
 use super::progress::Progress;
 use super::run::{model, weighted};
 use super::say;
 use super::stop::Stop;
-
-/// The models beside the drivers' own.
-const USUAL: [Model; 2] = [Model::Null, Model::Mobil];
+use super::{Call, SUCCESS};
 
 #[derive(Debug, Args)]
 pub(crate) struct ReplayArguments {
@@ -85,7 +81,7 @@ pub(crate) struct ReplayArguments {
 }
 
 impl ReplayArguments {
-    pub(crate) fn execute(self) -> Result<ExitCode, Fault> {
+    pub(crate) fn execute(self, call: &Call) -> Result<u8, Fault> {
         let (scenario, origin) = self.scenario()?;
         let stop = Stop::listen()?;
         let mut progress = None;
@@ -95,22 +91,17 @@ impl ReplayArguments {
             models,
             threads: available_parallelism().map_or(1, NonZero::get),
         };
-        let command = super::given();
         let show = |simulation: &Simulation| {
             let begun = || Progress::new(simulation, self.quiet);
             progress.get_or_insert_with(begun).show(simulation);
         };
-        let done = replay(&scenario, &origin, &asked, &command, show, || stop.is_raised());
+        let done = replay(&scenario, &origin, &asked, &call.line, show, || stop.is_raised());
         progress.iter_mut().for_each(Progress::clear);
         let done = done?;
-        let Some(report) = done.report else { return Ok(stop.code()) };
-        let dir = &scenario.output.dir;
-        write_whole(&dir.join(REPLAY), &json(&report)?)?;
-        let names: Vec<String> = self.recording.iter().map(|it| it.display().to_string()).collect();
-        let path = dir.join(REPLAY_REPORT);
-        write_whole(&path, &page(&report, &done.network, &names.join(", "), &command).to_html())?;
+        let written = done.write(&scenario.output.dir, &self.recording, &call.line)?;
+        let Some((report, path)) = written else { return Ok(stop.code()) };
         match (self.json, self.quiet) {
-            (true, _) => say(&json(&report)?)?,
+            (true, _) => say(&json(report)?)?,
             (false, true) => {}
             (false, false) => say(&format!(
                 "{}\nreport: {}\n{} files of results beside it\n",
@@ -119,7 +110,7 @@ impl ReplayArguments {
                 done.results.files.len()
             ))?,
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(SUCCESS)
     }
 
     fn scenario(&self) -> Result<(Scenario, Origin), Fault> {

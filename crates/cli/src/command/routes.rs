@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use laneweave::Fault;
-use laneweave::maps::{By, Map, NodeIndex, Route, Sense, routes};
-use laneweave::network::LaneletIndex;
+use laneweave::maps::Sense;
+use laneweave::output::json;
 use laneweave::scenario::open_map;
+use laneweave_studies::routes::{Way, ways};
 use serde::Serialize;
 
-use super::check::{Reading, json};
+use super::check::Reading;
 use super::numbers::{id, number, whole};
 use super::say;
 
@@ -44,27 +45,6 @@ struct Ways {
     routes: Vec<Way>,
 }
 
-/// A way: its lanelets in order. Of lanelets between which lanes are changed only the last counts as driven.
-#[derive(Serialize)]
-struct Way {
-    length_m: f64,
-    free_travel_time_s: f64,
-    lane_changes: usize,
-    /// Ways over the same roads that were found, which differ in their lanes: this one and slower ones.
-    variants: usize,
-    lanelets: Vec<Leg>,
-}
-
-#[derive(Serialize)]
-struct Leg {
-    id: i64,
-    /// `following`, or the side of the lane change by which it is reached.
-    by: &'static str,
-    /// It is driven against its direction.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    backward: bool,
-}
-
 impl RoutesArguments {
     pub(crate) fn execute(self) -> Result<(), Fault> {
         if self.longest.is_nan() || self.longest < 1.0 {
@@ -78,55 +58,9 @@ impl RoutesArguments {
             return Err(Fault::new("--most", "a limit of 0 routes", "choose 1 or more"));
         }
         let map = open_map(&self.map, &self.reading.options())?;
-        let [from, to] = [("FROM", self.from), ("TO", self.to)].map(|(name, id)| find(&map, name, id));
         let sense = Sense { most: self.most, longest: self.longest };
-        let (from, to) = (from?, to?);
-        // Two-way lanelets may be driven either way.
-        let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (*from, *to)));
-        let mut found: Vec<Route> = pairs.flat_map(|(from, to)| routes(&map, from, to, sense)).collect();
-        found.sort_by(|a, b| a.time.total_cmp(&b.time));
-        found.truncate(self.most);
-        let found: Vec<Way> = found.iter().map(|it| Way::of(it, &map)).collect();
+        let found = ways(&map, self.from, self.to, sense)?;
         say(&if self.json { json(&Ways { routes: found })? } else { text(&found, self.from, self.to) })
-    }
-}
-
-/// The nodes of the lanelet with this id.
-fn find(map: &Map, name: &str, id: i64) -> Result<Vec<NodeIndex>, Fault> {
-    let lanelets = &map.network.lanelets;
-    let place = lanelets.iter().position(|it| it.id == id).map(|it| it as u32);
-    let nodes = place.map(|it| {
-        let backward = map.graph.backward(LaneletIndex(it));
-        [NodeIndex(it)].into_iter().chain(backward).collect()
-    });
-    nodes.ok_or_else(|| {
-        let nearest = lanelets.iter().map(|it| it.id).min_by_key(|it| it.abs_diff(id)).unwrap_or_default();
-        let remedy = format!("choose one of its {} lanelets; the nearest id is {nearest}", lanelets.len());
-        Fault::new(name, format!("this map has no lanelet {id} for vehicles"), remedy)
-    })
-}
-
-impl Way {
-    fn of(route: &Route, map: &Map) -> Way {
-        let legs = route.steps.iter().map(|step| {
-            let node = &map.graph.nodes[step.node.at()];
-            Leg {
-                id: map.network.lanelets[node.lanelet.at()].id,
-                by: match step.by {
-                    By::Following => "following",
-                    By::Left => "left",
-                    By::Right => "right",
-                },
-                backward: node.is_backward,
-            }
-        });
-        Way {
-            length_m: route.length,
-            free_travel_time_s: route.time,
-            variants: route.variants,
-            lane_changes: route.steps.iter().filter(|it| it.by != By::Following).count(),
-            lanelets: legs.collect(),
-        }
     }
 }
 

@@ -2,27 +2,26 @@
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::thread::available_parallelism;
-use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use laneweave::folder::DRAWS;
 use laneweave::maps::Problem;
-use laneweave::output::write_whole;
+use laneweave::output::{json, write_whole};
 use laneweave::run::{self, Resumed, Run};
 use laneweave::scenario::{DrivingSide, Origin, Scenario, SumoFile, TableFormat, mixture};
 use laneweave::style::Model;
 use laneweave::{Fault, Simulation};
 
-use super::check::{Limit, driving_side, json};
+use super::check::{Limit, driving_side};
 use super::complain;
 use super::numbers::{number, seed, threads, within};
 use super::progress::Progress;
 use super::resume::same_run;
 use super::say;
 use super::stop::Stop;
+use super::{Call, SUCCESS};
 
 /// Maximum of kinds of problems of a map that are listed.
 const LISTED_KINDS: usize = 20;
@@ -146,10 +145,10 @@ fn sumo_file(text: &str) -> Result<SumoFile, String> {
 }
 
 impl RunArguments {
-    pub(crate) fn execute(self, started: Instant) -> Result<ExitCode, Fault> {
+    pub(crate) fn execute(self, call: &Call) -> Result<u8, Fault> {
         let screen = self.screen;
         if self.resume {
-            return self.resume(started);
+            return self.resume(call);
         }
         let (mut scenario, mut origin) = Origin::open(&self.input)?;
         let draws = self.draw_parameters;
@@ -157,16 +156,16 @@ impl RunArguments {
         if let Some(count) = draws {
             check_draws(&scenario, &origin, count)?;
         }
-        let code = run(&scenario, &origin, screen, started)?;
+        let code = run(&scenario, &origin, screen, call)?;
         match draws {
-            Some(count) if code == ExitCode::SUCCESS => draw(&scenario, &origin, screen, count)?,
+            Some(count) if code == SUCCESS => draw(&scenario, &origin, screen, count)?,
             _ => {}
         }
         Ok(code)
     }
 
     /// Resumes the run that left its scenario in the named folder.
-    fn resume(mut self, started: Instant) -> Result<ExitCode, Fault> {
+    fn resume(mut self, call: &Call) -> Result<u8, Fault> {
         let (dir, screen) = (&self.input.clone(), self.screen);
         let (mut scenario, origin) = run::kept(dir)?;
         let whole = |path: &Path| path.canonicalize().ok();
@@ -178,7 +177,7 @@ impl RunArguments {
         scenario.run.threads = asked.run.threads;
         scenario.map_options.max_size_mb = asked.map_options.max_size_mb;
         match run::resume(&scenario, &origin)? {
-            Resumed::Run(run) => drive(*run, screen, started),
+            Resumed::Run(run) => drive(*run, screen, call),
             Resumed::Complete(summary) => {
                 if !screen.quiet {
                     complain(format_args!("{}: the run is already complete", dir.display()));
@@ -186,7 +185,7 @@ impl RunArguments {
                 if screen.json {
                     say(&summary)?;
                 }
-                Ok(ExitCode::SUCCESS)
+                Ok(SUCCESS)
             }
         }
     }
@@ -236,13 +235,8 @@ impl RunArguments {
 }
 
 /// Runs `scenario` and writes its results; nothing is written before everything has been checked.
-pub(crate) fn run(
-    scenario: &Scenario,
-    origin: &Origin,
-    screen: Screen,
-    started: Instant,
-) -> Result<ExitCode, Fault> {
-    drive(Run::begin(scenario, origin, &super::given())?, screen, started)
+pub(crate) fn run(scenario: &Scenario, origin: &Origin, screen: Screen, call: &Call) -> Result<u8, Fault> {
+    drive(Run::begin(scenario, origin, &call.line)?, screen, call)
 }
 
 /// Refuses more draws of parameters than the styles have, before anything runs.
@@ -277,13 +271,13 @@ fn draw(scenario: &Scenario, origin: &Origin, screen: Screen, count: u32) -> Res
 }
 
 /// Drives a run to its end, and shows its progress and its results.
-fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> {
+fn drive(run: Run, screen: Screen, call: &Call) -> Result<u8, Fault> {
     if !screen.quiet {
         warn(run.simulation());
     }
     let stop = Stop::listen()?;
     let mut progress = Progress::new(run.simulation(), screen.quiet);
-    let results = run.started(started).complete(|simulation| {
+    let results = run.started(call.started).complete(|simulation| {
         progress.show(simulation);
         !stop.is_raised()
     });
@@ -298,7 +292,7 @@ fn drive(run: Run, screen: Screen, started: Instant) -> Result<ExitCode, Fault> 
     if !screen.quiet {
         results.warnings.iter().for_each(|it| complain(format_args!("warning: commands: {it}")));
     }
-    Ok(if results.summary.interrupted { stop.code() } else { ExitCode::SUCCESS })
+    Ok(if results.summary.interrupted { stop.code() } else { SUCCESS })
 }
 
 /// Lists the problems of the map, its remarks, and the demand.

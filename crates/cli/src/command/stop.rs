@@ -1,6 +1,5 @@
 //! Signals that end a run; it keeps its results so far.
 
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -60,8 +59,8 @@ impl Stop {
     }
 
     /// The exit code of a run that the signal ended.
-    pub(super) fn code(&self) -> ExitCode {
-        ExitCode::from(self.code.load(Ordering::Acquire) as u8)
+    pub(super) fn code(&self) -> u8 {
+        self.code.load(Ordering::Acquire) as u8
     }
 
     /// Whether the terminal has closed, so that nobody may read any more.

@@ -1,5 +1,6 @@
 //! Suggestions for a user who gave a file or a style in place of a command.
 
+use std::ffi::OsString;
 use std::path::Path;
 
 use clap::Error;
@@ -8,10 +9,10 @@ use clap::error::{ContextKind, ContextValue};
 use laneweave::maps::FileKind;
 use laneweave::style::built_in;
 
-/// Adds the suggestion to an error about an unknown command.
-pub(crate) fn with_tip(mut error: Error) -> Error {
+/// Adds the suggestion to an error about an unknown command among the `arguments`.
+pub(crate) fn with_tip(mut error: Error, arguments: &[OsString]) -> Error {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return error };
-    if let Some(line) = meant(word) {
+    if let Some(line) = meant(word, arguments) {
         let tip = StyledStr::from(format!("did you mean: laneweave {line}"));
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
     }
@@ -19,9 +20,9 @@ pub(crate) fn with_tip(mut error: Error) -> Error {
 }
 
 /// The suggested command line for `word`.
-fn meant(word: &str) -> Option<String> {
-    let typed: Vec<String> = std::env::args().skip(1).collect();
-    let before = typed.iter().take_while(|it| *it != word).map(String::as_str).collect::<Vec<_>>();
+fn meant(word: &str, arguments: &[OsString]) -> Option<String> {
+    let typed = arguments.iter().skip(1).filter_map(|it| it.to_str());
+    let before: Vec<&str> = typed.take_while(|it| *it != word).collect();
     match (&before[..], FileKind::by_name(Path::new(word))) {
         (["styles"], FileKind::Toml) => Some(format!("styles show {word}")),
         (["styles"], _) if built_in(word).is_some() => Some(format!("styles show {word}")),

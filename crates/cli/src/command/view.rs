@@ -9,19 +9,18 @@ use clap::{Args, ValueHint};
 use laneweave::Fault;
 use laneweave::output::write_whole;
 use laneweave_studies::branch::Setting;
-use laneweave_viewer::{Server, Source, Token, export};
+use laneweave_viewer::{Doorway, Server, Source, Token, export};
 
 use super::complain;
-use super::doorway::Doorway;
 use super::numbers::{number, within};
 use super::say;
-use super::shown::Shown;
+use super::shown::ShownArguments;
 use super::stop::Stop;
 
 #[derive(Debug, Args)]
 pub(crate) struct ViewArguments {
     #[command(flatten)]
-    shown: Shown,
+    shown: ShownArguments,
     /// Show beside a run that has ended its twin: the time from which on the twin has other settings, in seconds as in
     /// the tables.
     #[arg(long, value_name = "S", conflicts_with = "export")]
@@ -56,8 +55,8 @@ impl ViewArguments {
     /// Serves the page until the user stops it.
     pub(crate) fn execute(self) -> Result<(), Fault> {
         let mut source = match self.at {
-            Some(at) => self.shown.twins(at, &self.settings)?,
-            None => self.shown.source(&self.save)?,
+            Some(at) => self.shown.shown().twins(at, &self.settings)?,
+            None => self.shown.shown().source(&self.save)?,
         };
         if let Some(path) = &self.export {
             return self.write(path, &mut *source);

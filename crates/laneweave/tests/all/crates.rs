@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use toml::Table;
 
 /// The crates by level; each level comes above those on which it may depend.
-const LEVELS: [&[&str]; 12] = [
+const LEVELS: [&[&str]; 13] = [
     &["network", "models", "pool", "study", "test-data"],
     &["maps", "sim"],
     &["generate", "recordings"],
@@ -17,7 +17,8 @@ const LEVELS: [&[&str]; 12] = [
     &["laneweave"],
     &["studies"],
     &["viewer"],
-    &["cli", "python"],
+    &["cli"],
+    &["python"],
     &["bench"],
 ];
 

@@ -59,7 +59,9 @@ fn vehicles_are_the_same_one_by_one_by_lanelet_and_in_columns() {
                 assert_eq!(columns.speed_mps[row], it.speed_mps);
                 assert_eq!(f64::from(columns.acceleration_mps2[row]), it.acceleration_mps2);
                 let pose = [columns.x_m[row], columns.y_m[row], columns.heading_rad[row]];
-                assert_eq!(pose, [it.x_m, it.y_m, it.heading_rad]);
+                // Columns find the middle of a vehicle by one walk along its lane, and so in another order of sums.
+                let same = [it.x_m, it.y_m, it.heading_rad].into_iter().zip(pose);
+                assert!(same.into_iter().all(|(a, b)| (a - b).abs() < 1e-9), "{pose:?} {it:?}");
             }
             between_lanes += vehicles.iter().filter(|it| it.state == Phase::Changes).count();
         }

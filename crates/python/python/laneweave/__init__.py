@@ -1,7 +1,7 @@
 """laneweave: a microscopic traffic simulator whose drivers change lanes for human reasons.
 
 >>> import laneweave as lw
->>> simulation = lw.Simulation("maps/ramps.osm", vehicles_per_hour=3000, seed=1)
+>>> simulation = lw.Simulation(lw.example("ramps"), vehicles_per_hour=3000, seed=1)
 >>> simulation.run(60.0)
 >>> simulation.columns()["speed_mps"].mean()
 
@@ -21,24 +21,41 @@ from ._errors import (
     StateError,
     StyleError,
 )
-from ._laneweave import SIGHT_COLUMNS, Fleet, Simulation, Template, __version__
+from ._examples import example
+from ._laneweave import SIGHT_COLUMNS, Fleet, Map, Simulation, Template, __version__
 from ._results import Results, run
+from ._studies import Comparison, Fit, Replay, compare, fit, replay
+from ._style import Style
+from ._view import Picture, View, picture, view
 
 __all__ = [
     "SIGHT_COLUMNS",
     "CommandError",
+    "Comparison",
     "FileError",
+    "Fit",
     "Fleet",
     "LaneweaveError",
+    "Map",
     "MapError",
     "NotFoundError",
+    "Picture",
     "RecordingError",
+    "Replay",
     "Results",
     "ScenarioError",
     "Simulation",
     "StateError",
+    "Style",
     "StyleError",
     "Template",
+    "View",
     "__version__",
+    "compare",
+    "example",
+    "fit",
+    "picture",
+    "replay",
     "run",
+    "view",
 ]

@@ -21,8 +21,8 @@ class Simulation:
     Threads do not share a simulation: a call from another one raises a StateError while it works.
     """
 
-    def __new__(cls, source: str | PathLike[str], **keys: Any) -> Self:
-        """A simulation of the scenario (.toml) or the map in the file `source`, with these keys in place of its own.
+    def __new__(cls, source: str | PathLike[str] | Map, **keys: Any) -> Self:
+        """A simulation of the scenario (.toml) or the map `source`, with these keys in place of its own.
 
         Raises:
             LaneweaveError: A file or a key cannot be used.
@@ -167,6 +167,12 @@ class Simulation:
     def branch(self) -> Simulation:
         """Another simulation in the same state, which goes on by itself."""
 
+    def png(self, camera: str | tuple[float, float, float] | int, size: tuple[int, int]) -> bytes:
+        """A picture of the traffic as it is now; see laneweave.picture."""
+
+    def view(self, saved: Path, port: int) -> View:
+        """The page in the browser with a branch of it; see laneweave.view."""
+
     def close(self) -> None:
         """Frees its memory. Nothing can be asked of it any more."""
 
@@ -177,7 +183,7 @@ class Template:
     """A scenario of which many simulations are made, each with a seed of its own. They share map, routes, drivers and
     demand."""
 
-    def __new__(cls, source: str | PathLike[str], **keys: Any) -> Self: ...
+    def __new__(cls, source: str | PathLike[str] | Map, **keys: Any) -> Self: ...
     def spawn(self, seed: int) -> Simulation:
         """A simulation at its start, with this seed of all random numbers."""
 
@@ -223,10 +229,116 @@ class Fleet:
         """Fills `sight`, of the shape (simulations, 1 + nearest, len(SIGHT_COLUMNS)), with what the vehicle of each
         simulation sees: itself first, then the others, the nearest first. Rows are 0 where there is nobody."""
 
+class Map:
+    """A map that was read: its lanelets, what is wrong with it, and the ways through it.
+
+    Simulations and templates are made of it as of its file.
+    """
+
+    def __new__(cls, path: str | PathLike[str], **options: Any) -> Self:
+        """The map in the file `path`, read with these options: `origin`, `law`, `driving_side`, `joins_ends`,
+        `max_size_mb`, as in a scenario.
+
+        Raises:
+            LaneweaveError: The file or an option cannot be used.
+        """
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """How it was read."""
+
+    @property
+    def lanelets(self) -> list[int]:
+        """The ids of all lanelets for vehicles."""
+
+    def lines(self, lanelet: int) -> dict[str, npt.NDArray[np.float64]]:
+        """The borders and the centre line of a lanelet, "left", "right" and "centre": arrays of the shape (points, 3) with
+        x, y and z [m]."""
+
+    def graph(self) -> dict[int, dict[str, Any]]:
+        """The routing graph by the ids of the lanelets: what follows, what lies beside, what crosses, length and limit."""
+
+    def check(self) -> dict[str, Any]:
+        """What the map contains, and the problems in it, as `laneweave check --json` says it."""
+
+    def routes(self, from_lanelet: int, to_lanelet: int, *, most: int = ..., longest: float = ...) -> list[dict[str, Any]]:
+        """The sensible routes from one lanelet to another, the fastest first.
+
+        Args:
+            most: Largest number of routes.
+            longest: Longest travel time, as a multiple of that of the fastest route.
+        """
+
+    def svg(self) -> str:
+        """A picture of the map, with its problems. A notebook shows it."""
+
+    def _repr_svg_(self) -> str: ...
+
+class View:
+    """The page in the browser; see laneweave.View."""
+
+    @property
+    def url(self) -> str: ...
+    @property
+    def doorway(self) -> Path:
+        """A file that leads a browser to the page, and that only you can read."""
+
+    @property
+    def is_closed(self) -> bool: ...
+    def close(self) -> None: ...
+
+Progress: TypeAlias = Callable[[float], object] | None
+
+def compare_models(
+    sources: Sequence[str | PathLike[str] | Map],
+    out: Path,
+    models: list[str] | None,
+    seeds: int,
+    progress: Progress,
+    **keys: Any,
+) -> tuple[str, tuple[Path, Path]]:
+    """Compares models; see laneweave.compare."""
+
+def fit_styles(
+    recordings: list[Path], out: Path, keys: dict[str, Any], progress: Progress
+) -> dict[str, Any]:
+    """Fits styles; see laneweave.fit."""
+
+def replay_recordings(
+    recordings: list[Path], out: Path, how: dict[str, Any], keys: dict[str, Any], progress: Progress
+) -> dict[str, Any]:
+    """Replays recordings; see laneweave.replay."""
+
+def style_text(name: str) -> str:
+    """The text of a style file."""
+
+def new_style(name: str, base: str) -> str:
+    """The text of a new style like another one."""
+
+def style_of(values: dict[str, Any]) -> str:
+    """The text of a style file with these values."""
+
+def view_files(
+    input: list[Path],
+    map: str | PathLike[str] | None,
+    columns: str | PathLike[str] | None,
+    options: dict[str, Any],
+    saved: Path,
+    port: int,
+) -> View:
+    """A view of files; see laneweave.view."""
+
+def command(arguments: list[str]) -> int:
+    """Does what a command line asks for, and returns the exit code. The first argument is the name of the program."""
+
 def run(
-    source: str | PathLike[str],
+    source: str | PathLike[str] | Map,
     out: str | PathLike[str],
-    progress: Callable[[float], object] | None = None,
+    progress: Progress = None,
     **keys: Any,
 ) -> tuple[dict[str, Any], list[Path], list[str]]:
     """Runs a scenario to its end; see laneweave.run."""

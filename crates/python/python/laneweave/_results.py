@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import html
 import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from . import _laneweave
+from ._laneweave import Map
 
 
 class Results:
@@ -48,12 +51,7 @@ class Results:
         path = next((it for it in paths if it.exists()), None)
         if path is None:
             raise KeyError(f"there is no table {name!r}; choose one of {', '.join(self.tables)}")
-        for read in (_by_pandas, _by_polars, _by_arrow):
-            try:
-                return read(path)
-            except ImportError:
-                continue
-        raise ImportError(f"nothing here reads {path.name}; install pandas with pyarrow, polars, or pyarrow")
+        return read_table(path)
 
     def __repr__(self) -> str:
         return f"<laneweave.Results in {self.folder}>"
@@ -61,14 +59,24 @@ class Results:
     def _repr_html_(self) -> str:
         plain = {key: it for key, it in self.summary.items() if isinstance(it, (int, float, str))}
         rows = "".join(f"<tr><th>{html.escape(key)}</th><td>{html.escape(str(it))}</td></tr>" for key, it in plain.items())
-        figures = "".join(it.read_text() for it in sorted(self.folder.glob("*.svg")))
+        figures = "".join(it.read_text(encoding="utf-8") for it in sorted(self.folder.glob("*.svg")))
         return f"<table>{rows}</table>{figures}"
+
+
+def read_table(path: Path) -> Any:
+    """A table as a pandas data frame, or as one of polars or an Arrow table if pandas is not there."""
+    for read in (_by_pandas, _by_polars, _by_arrow):
+        try:
+            return read(path)
+        except ImportError:
+            continue
+    raise ImportError(f"nothing here reads {path.name}; install pandas with pyarrow, polars, or pyarrow")
 
 
 def _by_pandas(path: Path) -> Any:
     import pandas
 
-    return pandas.read_parquet(path) if path.suffix == ".parquet" else pandas.read_csv(path)
+    return pandas.read_parquet(path) if path.suffix == ".parquet" else pandas.read_csv(path, keep_default_na=False, na_values=[""])
 
 
 def _by_polars(path: Path) -> Any:
@@ -84,7 +92,7 @@ def _by_arrow(path: Path) -> Any:
 
 
 def run(
-    source: str | PathLike[str],
+    source: str | PathLike[str] | Map,
     out: str | PathLike[str] | None = None,
     *,
     progress: bool = True,
@@ -102,31 +110,31 @@ def run(
         LaneweaveError: The file, its map or a style cannot be used, or a key is wrong. Nothing is written then.
         KeyboardInterrupt: Ctrl-C.
     """
-    folder = Path(tempfile.mkdtemp(prefix="laneweave-") if out is None else out)
-    bar = _bar() if progress else None
-    try:
-        summary, files, warnings = _laneweave.run(source, folder, bar.show if bar else None, **keys)
-    finally:
-        if bar:
-            bar.close()
+    folder = folder_for(out)
+    with progress_bar(progress) as show:
+        summary, files, warnings = _laneweave.run(source, folder, show, **keys)
     return Results(folder, summary, files, warnings)
 
 
-class _Bar:
-    def __init__(self, made: Any) -> None:
-        self._made, self._done = made, 0.0
-
-    def show(self, share: float) -> None:
-        self._made.update(share - self._done)
-        self._done = share
-
-    def close(self) -> None:
-        self._made.close()
+def folder_for(out: str | PathLike[str] | None) -> Path:
+    """The folder ``out``; a new temporary one if it is left out."""
+    return Path(tempfile.mkdtemp(prefix="laneweave-") if out is None else out)
 
 
-def _bar() -> _Bar | None:
+@contextmanager
+def progress_bar(is_wanted: bool) -> Iterator[Callable[[float], object] | None]:
+    """What shows the share that is done, from 0 to 1, in a bar; nothing if it is not wanted, or ``tqdm`` is not there."""
+    bar = _bar() if is_wanted else None
+    if bar is None:
+        yield None
+        return
+    with bar:
+        yield lambda share: bar.update(share - bar.n)
+
+
+def _bar() -> Any:
     try:
-        from tqdm.auto import tqdm
+        from tqdm import tqdm
     except ImportError:
         return None
-    return _Bar(tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}", leave=False))
+    return tqdm(total=1.0, bar_format="{l_bar}{bar}| {elapsed}", leave=False)

@@ -14,7 +14,7 @@ use super::ending::Ending;
 use super::first_incident::FirstIncident;
 use super::provenance::Provenance;
 use super::queues::Queue;
-use crate::record::SUMMARY;
+use crate::whole_file::json;
 
 /// Maximum of queues that are named on the screen.
 const LISTED_QUEUES: usize = 3;
@@ -252,8 +252,7 @@ impl Summary {
     /// # Errors
     /// None, as long as every field can be serialized.
     pub fn to_json(&self) -> Result<String, Fault> {
-        let json = serde_json::to_string_pretty(self).map_err(|error| Fault::bug(SUMMARY, error))?;
-        Ok(json + "\n")
+        json(self)
     }
 
     /// The summary for the screen, with the files of the run.

@@ -41,7 +41,7 @@ pub use crate::outcome::{
 #[cfg(feature = "reports")]
 pub use crate::report::{Crowd, Driving, Reasons, Record, StyleDriving, TripTimes};
 pub use crate::seen::{Boxes, Traces};
-pub use crate::whole_file::{all_whole, write_whole};
+pub use crate::whole_file::{all_whole, json, write_whole};
 pub use outputs::outputs;
 
 /// An output of a run: it observes the world, and most outputs write files. One without a state needs `observe` only.

@@ -2,7 +2,7 @@
 
 use super::{Origin, Scenario};
 use crate::fault::{Fault, FaultKind};
-use crate::style::{StyleTemplate, find};
+use crate::style::StyleTemplate;
 
 /// The styles of a scenario with their weights.
 ///
@@ -13,8 +13,7 @@ pub fn mixture(scenario: &Scenario, origin: &Origin) -> Result<Vec<(StyleTemplat
     for (name, weight) in &scenario.styles {
         let place = || origin.place(&["styles", name]);
         let of_style = |fault: Fault| fault.of_kind(FaultKind::Style);
-        let source = origin.style(name).map_or_else(|| find(name, origin.style_folder(), place), Ok);
-        let template = StyleTemplate::parse(&source.map_err(of_style)?).map_err(of_style)?;
+        let template = StyleTemplate::parse(&origin.style(name)?).map_err(of_style)?;
         if !(weight.is_finite() && *weight >= 0.0) {
             let what = format!("the style {name:?} has the weight {weight}");
             return Err(Fault::new(place(), what, "give it a finite weight of 0 or more"));

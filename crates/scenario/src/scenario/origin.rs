@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use laneweave_maps::FileKind;
 
 use super::{Replay, Scenario};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use crate::source::Source;
+use crate::style::find;
 
 /// The demo scenario and its map, which are built in.
-const DEMO: &str = include_str!("../../../../scenarios/demo.toml");
-const DEMO_MAP: &str = include_str!("../../../../maps/town.osm");
+const DEMO: &str = include_str!("../../assets/demo.toml");
+const DEMO_MAP: &str = include_str!("../../assets/town.osm");
 
 /// The source of the values of a scenario.
 #[derive(Clone, Debug, Default)]
@@ -77,9 +78,16 @@ impl Origin {
         self
     }
 
-    /// The text of a style that is kept in memory.
-    pub(super) fn style(&self, name: &str) -> Option<Source> {
-        self.styles.get(name).map(|text| Source { path: name.into(), text: text.clone() })
+    /// The style that a scenario calls `name`: one that is kept in memory, a built-in one, or a file.
+    ///
+    /// # Errors
+    /// If there is no such style, or its file cannot be read.
+    pub fn style(&self, name: &str) -> Result<Source, Fault> {
+        match self.styles.get(name) {
+            Some(text) => Ok(Source { path: name.into(), text: text.clone() }),
+            None => find(name, self.style_folder(), || self.place(&["styles", name]))
+                .map_err(|fault| fault.of_kind(FaultKind::Style)),
+        }
     }
 
     /// Records that `option` has replaced the value of `key`.

@@ -19,7 +19,7 @@ pub struct BuiltIn {
 
 macro_rules! built_in {
     ($($name:literal),*) => {
-        &[$(BuiltIn { name: $name, text: include_str!(concat!("../../../../styles/", $name, ".toml")) }),*]
+        &[$(BuiltIn { name: $name, text: include_str!(concat!("../../assets/styles/", $name, ".toml")) }),*]
     };
 }
 

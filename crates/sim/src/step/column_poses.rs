@@ -23,6 +23,17 @@ struct Bumpers<'a> {
     rear: LineWalk<'a>,
 }
 
+impl Bumpers<'_> {
+    /// The pose of a body with its bumpers at these places along the lane [m].
+    #[inline]
+    fn pose(&mut self, [front, rear]: [f64; 2]) -> Pose {
+        match self.front.straight([front, rear]) {
+            Some((at, heading)) => Pose { at, heading },
+            None => between([self.front.at(front), self.rear.at(rear)]),
+        }
+    }
+}
+
 impl World {
     /// Fills the columns of the poses, in the order of [`World::vehicles`].
     pub(super) fn fill_poses(&self, rows: &mut Rows) {
@@ -37,7 +48,7 @@ impl World {
                     continue;
                 }
                 let there = if keeps_lane(motion, driver, lane_change) {
-                    between([bumpers.front.at(motion.x), bumpers.rear.at(motion.rear())])
+                    bumpers.pose([motion.x, motion.rear()])
                 } else {
                     let body = self.traffic.externals().body(motion.id).filter(|_| driver.is_external);
                     body.map_or_else(|| pose(&scene, Spot { chain, index }), |it| it.pose)

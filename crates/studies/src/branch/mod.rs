@@ -2,7 +2,6 @@
 //! are the same, so the change causes every difference between the two.
 
 mod differences;
-#[cfg(feature = "reports")]
 mod page;
 mod parting;
 mod setting;
@@ -13,7 +12,6 @@ use laneweave_results::record::Record;
 use laneweave_scenario::Fault;
 
 pub use differences::{Differences, Instant, Vehicle};
-#[cfg(feature = "reports")]
 pub use page::page;
 pub use parting::Parting;
 use parting::last_step;

@@ -2,7 +2,6 @@
 
 mod evidence;
 mod graph;
-#[cfg(feature = "reports")]
 mod picture;
 mod recording;
 mod report;
@@ -11,7 +10,6 @@ mod set;
 pub use evidence::{EvidenceReport, Forbidden, SeenAt, SeenOn};
 pub use graph::GraphJson;
 pub use laneweave_scenario::Remark;
-#[cfg(feature = "reports")]
 pub use picture::{explorer, picture};
 pub use recording::{ChangeRow, RecordingReport, tracks};
 pub use report::{Lit, Opening, Report};

@@ -1,7 +1,7 @@
 //! Comparison of lane-change models: the same traffic for each of them, over several seeds.
 
+mod files;
 mod outcome;
-#[cfg(feature = "reports")]
 mod page;
 
 use laneweave::Simulation;
@@ -13,12 +13,29 @@ use laneweave_study::{EdieRow, Estimate, mean};
 
 use crate::parallel::in_parallel;
 
+pub use files::ComparisonFiles;
 pub use outcome::{MEASURES, Measure, Outcome};
-#[cfg(feature = "reports")]
 pub use page::page;
 
 /// The explanation of the number after a mean.
 const OF_FEW: &str = "(n): mean of n seeds only; the other seeds had nothing to measure";
+
+/// The models that are usually compared: the paper's, two others, and the two null-model controls.
+pub const USUAL: [Model; 5] = [Model::Mcdm, Model::Mobil, Model::Lmrs, Model::Null, Model::ConstantHazard];
+
+/// So many seeds from the `first` on.
+///
+/// # Errors
+/// If a table cannot hold the last of them.
+pub fn seeds_from(first: u64, count: u64) -> Result<Vec<u64>, Fault> {
+    // Tables hold them as signed numbers.
+    let end = first.checked_add(count).filter(|it| i64::try_from(*it).is_ok());
+    let end = end.ok_or_else(|| {
+        let what = format!("{count} seeds from {first} on go beyond {}", i64::MAX);
+        Fault::new("--seeds", what, "choose a smaller run.seed in the scenario")
+    })?;
+    Ok((first..end).collect())
+}
 
 /// One run of a comparison.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,6 +119,15 @@ impl Comparison {
     fn seeds(&self) -> Vec<u64> {
         let first = self.models.first();
         self.trials.iter().filter(|it| Some(&it.model) == first).map(|it| it.seed).collect()
+    }
+
+    /// The table of [`to_text`](Comparison::to_text), below a line about the `input` that was measured for so long [s].
+    pub fn to_titled_text(&self, input: &str, duration_s: f64) -> String {
+        let seeds = match self.seeds().len() {
+            1 => "1 seed (at least 2 are needed for an interval)".to_owned(),
+            count => format!("{count} seeds"),
+        };
+        format!("{input}, {duration_s} s, {seeds}: means with 95 % intervals\n{}\n", self.to_text())
     }
 
     /// A table of all measures by model, each a mean with its 95 % interval over the seeds.

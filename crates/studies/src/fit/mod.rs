@@ -5,13 +5,12 @@
 
 mod accepted;
 mod correct;
+mod files;
 mod following;
 mod found;
 mod gaps;
-#[cfg(feature = "reports")]
 mod gaps_page;
 mod judge;
-#[cfg(feature = "reports")]
 mod page;
 mod plan;
 mod prediction;
@@ -38,7 +37,6 @@ pub use following::{FollowingNumber, FollowingPrediction, FollowingReport, Off};
 pub use gaps::{BrakingReport, CriticalGapReport, GapReport, GapScoreReport};
 pub(crate) use judge::{AXES, InClass};
 pub use judge::{Design, Judged, JudgedMeasure, JudgedModel, Predicted, Rollouts};
-#[cfg(feature = "reports")]
 pub use page::{FIGURES, figures, page};
 pub use plan::{ExpectedWeight, Plan};
 pub use prediction::{Elsewhere, HeldOut, Predictive};
@@ -48,6 +46,8 @@ pub use report::{
 };
 pub use style::FITTED;
 
+/// Most classes of drivers.
+pub const MOST_CLASSES: usize = 6;
 /// Times before the crossing at which changes may begin, for comparison [s].
 const LEADS: [f64; 3] = [1.5, 2.5, 3.5];
 
@@ -127,11 +127,28 @@ impl Request {
     /// Reads the recordings, fits how their drivers follow, and notes what they could choose.
     ///
     /// # Errors
-    /// If a file cannot be read or is of no known format, a recording lies outside its map, or the prior style is not
-    /// one of multi-criteria decision-making.
+    /// If a number is not in its range, a file cannot be read or is of no known format, a recording lies outside its
+    /// map, or the prior style is not one of multi-criteria decision-making.
     pub fn observe(&self) -> Result<Observed, Fault> {
+        self.check()?;
         let prior = self.prior_style()?;
         self.observed(Sources::read(self)?, prior)
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        /// Longest time between begin and crossing [s].
+        const LONGEST: f64 = 10.0;
+        /// Largest error [m]: beyond it lanes are not told apart.
+        const LARGEST: f64 = 1.0;
+        if let Some(lead) = self.lead.filter(|it| !(0.0..=LONGEST).contains(it)) {
+            let what = format!("{lead} s is no time before a crossing");
+            return Err(Fault::new("--lead", what, "choose 0 to 10 s"));
+        }
+        if let Some(error) = self.position_error.filter(|it| !(*it > 0.0 && *it <= LARGEST)) {
+            let what = format!("{error} m is no error of positions that can be corrected");
+            return Err(Fault::new("--position-error", what, "choose more than 0, and 1 m at most"));
+        }
+        Ok(())
     }
 
     /// Fits following to recordings beside a style that has none yet, and notes what drivers who follow so could

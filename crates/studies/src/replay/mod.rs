@@ -6,7 +6,7 @@
 mod collisions;
 mod departed;
 mod exposure;
-#[cfg(feature = "reports")]
+mod files;
 mod page;
 mod parting;
 mod report;
@@ -32,10 +32,12 @@ use trace::{Followed, Trace, Tracer};
 
 pub use collisions::Collisions;
 pub use departed::{Example, HandedOver, LateStart};
-#[cfg(feature = "reports")]
 pub use page::page;
 pub use parting::{PartedAfter, Parting};
 pub use report::{CollisionMeans, Difference, Driver, HandOvers, Matched, Mean, Named, ReplayReport, Score};
+
+/// The models that are usually compared beside the drivers' own.
+pub const USUAL: [Model; 2] = [Model::Null, Model::Mobil];
 
 /// Drivers decide at least so often [s].
 const STEP: f64 = 0.1;

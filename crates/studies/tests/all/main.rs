@@ -6,7 +6,6 @@ mod commands;
 mod examples;
 mod following;
 mod gaps;
-#[cfg(feature = "reports")]
 mod mutations;
 mod quick;
 mod replayed;

@@ -49,7 +49,7 @@ pub fn render(
     while source.time_s() <= until_s + almost {
         let mut snapshot = Snapshot::default();
         source.see(&Wants::default(), &mut snapshot);
-        let picture = picture(&scene, &snapshot, asked)?;
+        let picture = drawn(&scene, &snapshot, asked.camera, asked.size)?;
         take(number, snapshot.time_s, &picture)?;
         number += 1;
         let is_next_too_late = source.time_s() + f64::from(every) * source.step_s() > until_s + almost;
@@ -72,14 +72,24 @@ fn go_to(source: &mut dyn Source, time_s: f64) -> Result<(), Fault> {
     Ok(())
 }
 
+/// A picture of `source` as it is now, as PNG of so many pixels.
+///
+/// # Errors
+/// If the size is impossible.
+pub fn picture(source: &mut dyn Source, camera: Camera, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+    let mut snapshot = Snapshot::default();
+    source.see(&Wants::default(), &mut snapshot);
+    drawn(&source.scene(), &snapshot, camera, size)
+}
+
 /// One picture as PNG.
-fn picture(scene: &Scene, snapshot: &Snapshot, asked: Pictures) -> Result<Vec<u8>, Fault> {
-    let [width, height] = asked.size;
+fn drawn(scene: &Scene, snapshot: &Snapshot, camera: Camera, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+    let [width, height] = size;
     let mut canvas = Pixmap::new(width, height).ok_or_else(|| {
         let what = format!("a picture of {width} × {height} pixels");
         Fault::new("--size", what, "choose 1x1 to 16384x16384")
     })?;
-    let sight = Sight::of(asked.camera, scene, snapshot, asked.size);
+    let sight = Sight::of(camera, scene, snapshot, size);
     draw::ground(&mut canvas);
     draw::roads(&mut canvas, &sight, scene);
     draw::lights(&mut canvas, &sight, scene, snapshot);

@@ -13,9 +13,10 @@ use axum::response::{IntoResponse, Response};
 use super::Shared;
 
 /// What a browser lets the page do: use its own parts and this server, and nothing else. The page itself allows only
-/// one script, which it names by its hash.
+/// one script, which it names by its hash. Only pages of this machine, such as notebooks, may show it in a frame.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src 'self'; \
-    img-src data: blob:; worker-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    img-src data: blob:; worker-src 'none'; base-uri 'none'; form-action 'none'; \
+    frame-ancestors http://localhost:* http://127.0.0.1:*";
 
 /// Where the server listens.
 #[derive(Clone, Debug, PartialEq, Eq)]

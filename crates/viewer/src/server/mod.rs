@@ -2,6 +2,7 @@
 //! wants it otherwise.
 
 mod connection;
+mod doorway;
 mod guard;
 mod hall;
 mod places;
@@ -33,6 +34,7 @@ use crate::snapshot::Snapshot;
 use crate::source::Source;
 use crate::stage::{NO_PAGE, Request, Stage};
 
+pub use doorway::Doorway;
 pub use guard::{Address, Token};
 use hall::{Hall, Visit};
 use places::Places;

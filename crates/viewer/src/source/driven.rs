@@ -44,12 +44,16 @@ impl Driven {
     pub(super) fn new(scenario: &Scenario, origin: &Origin) -> Result<Driven, Fault> {
         let map = read_map(scenario, origin)?;
         let around = Surroundings::of(&map);
-        let simulation = Simulation::from_scenario_on(map, scenario, origin)?;
+        Ok(Driven::of(Simulation::from_scenario_on(map, scenario, origin)?, around))
+    }
+
+    /// A simulation as it is now, on a map that has this beside its network.
+    pub(super) fn of(simulation: Simulation, around: Surroundings) -> Driven {
         let noted = Noted { lanes: Lanes::of(simulation.network()), last_changes: HashMap::new() };
         let turns = Turns::of(simulation.network());
-        let name = scenario.map.file_name().unwrap_or(scenario.map.as_os_str());
-        let title = name.to_string_lossy().into_owned();
-        Ok(Driven { simulation, title, around, turns, noted })
+        let map = &simulation.scenario().map;
+        let title = map.file_name().unwrap_or(map.as_os_str()).to_string_lossy().into_owned();
+        Driven { simulation, title, around, turns, noted }
     }
 
     pub(super) fn time_s(&self) -> f64 {

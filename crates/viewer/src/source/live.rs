@@ -8,14 +8,14 @@ use std::time::{Duration, Instant};
 
 use laneweave::scenario::{Origin, Scenario};
 use laneweave::sim::{Command, Commanded, Target};
-use laneweave::{Control, Fault, Lateral, Longitudinal, NewVehicle, VehicleId};
+use laneweave::{Control, Fault, Lateral, Longitudinal, NewVehicle, Simulation, VehicleId};
 
 use super::driven::Driven;
 use super::ghosts;
 use super::hands::{Deed, Done, Hand, Hands};
 use super::saved::{Saved, save};
 use super::{Abilities, Hello, Kind, Mark, Marks, Source, TwinFacts, Wants};
-use crate::scene::Scene;
+use crate::scene::{Scene, Surroundings};
 use crate::snapshot::Snapshot;
 
 /// Acts on the same thing that follow each other within this time are one: a slider that moves.
@@ -49,8 +49,16 @@ impl Live {
     /// # Errors
     /// If something is missing, not readable, or invalid.
     pub fn new(scenario: &Scenario, origin: &Origin, dir: PathBuf) -> Result<Live, Fault> {
-        let driven = Driven::new(scenario, origin)?;
-        Ok(Live {
+        Ok(Live::driven(Driven::new(scenario, origin)?, dir))
+    }
+
+    /// A simulation that goes on from where it is, on a map that has this beside its network.
+    pub fn of(simulation: Simulation, around: Surroundings, dir: PathBuf) -> Live {
+        Live::driven(Driven::of(simulation, around), dir)
+    }
+
+    fn driven(driven: Driven, dir: PathBuf) -> Live {
+        Live {
             driven,
             waits: false,
             touched: BTreeSet::new(),
@@ -61,7 +69,7 @@ impl Live {
             has_news: false,
             twin: None,
             dir,
-        })
+        }
     }
 
     /// Gives a command before the next step, in place of those that wait and contradict it.

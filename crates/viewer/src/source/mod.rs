@@ -11,6 +11,7 @@ mod pair;
 mod recorded;
 mod rerun;
 mod saved;
+mod shown;
 mod styles;
 mod turns;
 
@@ -24,6 +25,7 @@ pub use live::Live;
 pub use recorded::Recorded;
 pub use rerun::Rerun;
 pub use saved::Saved;
+pub use shown::Shown;
 pub use styles::StyleFacts;
 
 use crate::scene::Scene;

@@ -17,7 +17,6 @@ mod contest;
 mod density;
 mod measures;
 mod models;
-#[cfg(feature = "reports")]
 mod page;
 pub(super) mod report;
 mod rollout;
@@ -40,7 +39,6 @@ use split::{Piece, Split, between};
 use tally::{Scope, Tally};
 
 pub(crate) use density::{AXES, InClass};
-#[cfg(feature = "reports")]
 pub(super) use page::{density_figure, figure, section};
 pub use report::{Design, Judged, JudgedMeasure, JudgedModel, Predicted};
 

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use laneweave::record::Record;
 use laneweave::run::{Resumed, Run, kept, resume};
-#[cfg(feature = "parquet")]
 use laneweave::scenario::TableFormat;
 use laneweave::scenario::{Origin, Scenario};
 use laneweave::{Class, Control, Lateral, Longitudinal, NewVehicle, Simulation};
@@ -42,7 +41,6 @@ fn ten_thousand_commands_are_repeated_bit_for_bit_on_any_number_of_threads() {
     }
 }
 
-#[cfg(feature = "parquet")]
 #[test]
 fn a_table_in_parquet_says_the_same() {
     let (mut scenario, recorded, _, hash) = busy("csv", 60.0);

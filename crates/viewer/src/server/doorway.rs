@@ -5,17 +5,17 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use laneweave_viewer::Token;
+use super::Token;
 
 /// A file that only this user can read, for as long as this is there.
-pub(super) struct Doorway(PathBuf);
+pub struct Doorway(PathBuf);
 
 impl Doorway {
     /// A file that leads to `address`.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(super) fn to(address: &str) -> io::Result<Doorway> {
+    pub fn to(address: &str) -> io::Result<Doorway> {
         let path = std::env::temp_dir().join(format!("laneweave-view-{}.html", Token::new()));
         let mut options = OpenOptions::new();
         #[cfg(unix)]
@@ -30,7 +30,8 @@ impl Doorway {
         Ok(doorway)
     }
 
-    pub(super) fn path(&self) -> &Path {
+    /// Where it is.
+    pub fn path(&self) -> &Path {
         &self.0
     }
 }

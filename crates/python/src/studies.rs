@@ -1,0 +1,272 @@
+//! Studies: models compared, styles fitted, recordings replayed.
+
+use std::num::NonZero;
+use std::path::PathBuf;
+use std::thread::available_parallelism;
+
+use laneweave::maps::FileKind;
+use laneweave::models::Reading;
+use laneweave::scenario::{MapOptions, Origin, Replay};
+use laneweave::style::Model;
+use laneweave::{Fault, FaultKind, Simulation};
+use laneweave_calibration::Classes;
+use laneweave_studies::compare::{ComparisonFiles, USUAL, seeds_from};
+use laneweave_studies::fit::{Request, Rollouts};
+use laneweave_studies::replay::{self, Asked as AskedReplay};
+use laneweave_studies::{compare, fit};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::errors::Failure;
+use crate::keys::{Asked, Given, Keys, fitting};
+use crate::run::{COMMAND, left, share};
+use crate::task::{Task, watched};
+use crate::values::{named, plain, to_python};
+
+fn threads() -> usize {
+    available_parallelism().map_or(1, NonZero::get)
+}
+
+fn models(names: Option<Vec<String>>, usual: &[Model]) -> Result<Vec<Model>, Failure> {
+    names.map_or(Ok(usual.to_vec()), |it| it.iter().map(|name| named("models", name)).collect())
+}
+
+/// Runs each of the `sources` with each of the models and so many seeds, writes the report and the table of all runs
+/// into the folder `out`, and returns the comparisons in words and the paths of report and table.
+#[pyfunction]
+#[pyo3(signature = (sources, out, models = None, seeds = 10, progress = None, **keys))]
+pub(crate) fn compare_models(
+    py: Python<'_>,
+    sources: Vec<Given<'_>>,
+    out: PathBuf,
+    models: Option<Vec<String>>,
+    seeds: u64,
+    progress: Option<Py<PyAny>>,
+    keys: Option<&Bound<'_, PyDict>>,
+) -> PyResult<(String, [PathBuf; 2])> {
+    let asked = sources.into_iter().map(|it| Asked::new(it, keys)).collect::<PyResult<Vec<Asked>>>()?;
+    watched(py, progress.as_ref(), move |task| compared(asked, &out, models, seeds, task))
+}
+
+fn compared(
+    asked: Vec<Asked>,
+    out: &std::path::Path,
+    names: Option<Vec<String>>,
+    seeds: u64,
+    task: &Task,
+) -> Result<(String, [PathBuf; 2]), Failure> {
+    let models = models(names, &USUAL)?;
+    let mut inputs = Vec::new();
+    for it in asked {
+        let name = it.source.display().to_string();
+        let (scenario, origin) = it.read()?;
+        // Nothing runs before everything has been checked.
+        Simulation::from_scenario(&scenario, &origin)?;
+        let seeds = seeds_from(scenario.run.seed, seeds)?;
+        inputs.push((name, scenario, origin, seeds));
+    }
+    if inputs.is_empty() || models.is_empty() || seeds == 0 {
+        let what = "nothing to compare";
+        return Err(Fault::new("compare", what, "give scenarios, models and seeds")
+            .of_kind(FaultKind::Value)
+            .into());
+    }
+    let mut files = ComparisonFiles::begin(out)?;
+    let (mut text, count) = (String::new(), inputs.len() as f64);
+    for (done, (name, scenario, origin, seeds)) in inputs.into_iter().enumerate() {
+        task.has_done(done as f64 / count);
+        let comparison = compare::compare(&scenario, &origin, &models, &seeds, threads())?;
+        text += &comparison.to_titled_text(&name, scenario.run.duration_s);
+        files.add(name, comparison)?;
+    }
+    Ok((text, files.finish(COMMAND)?))
+}
+
+/// How styles are fitted: what `laneweave fit` takes as options.
+#[derive(Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct FitKeys {
+    map: Option<PathBuf>,
+    columns: Option<PathBuf>,
+    map_options: MapOptions,
+    prior: String,
+    reading: Option<Reading>,
+    classes: Option<usize>,
+    by_paper: bool,
+    draws: u32,
+    repetitions: u32,
+    lead_s: Option<f64>,
+    position_error_m: Option<f64>,
+    judge: Option<u32>,
+    seed: u64,
+}
+
+impl Default for FitKeys {
+    fn default() -> FitKeys {
+        let usual = Request::new(Vec::new());
+        FitKeys {
+            map: None,
+            columns: None,
+            map_options: usual.map_options,
+            prior: usual.prior,
+            reading: None,
+            classes: None,
+            by_paper: false,
+            draws: usual.draws,
+            repetitions: usual.repetitions,
+            lead_s: None,
+            position_error_m: None,
+            judge: None,
+            seed: usual.seed,
+        }
+    }
+}
+
+impl FitKeys {
+    fn request(self, recordings: Vec<PathBuf>) -> Request {
+        Request {
+            recordings,
+            map: self.map,
+            columns: self.columns,
+            map_options: self.map_options,
+            prior: self.prior,
+            reading: self.reading,
+            classes: self.classes.map_or(Classes::Auto, Classes::Exactly),
+            by_paper: self.by_paper,
+            draws: self.draws,
+            repetitions: self.repetitions,
+            lead: self.lead_s,
+            position_error: self.position_error_m,
+            seed: self.seed,
+        }
+    }
+}
+
+/// What a fit leaves.
+#[derive(IntoPyObject)]
+pub(crate) struct Fitted {
+    found: Py<PyAny>,
+    text: String,
+    styles: Vec<PathBuf>,
+    warnings: Vec<String>,
+}
+
+/// Fits styles to recordings, writes them with the report into the folder `out`, and returns what was found, in words,
+/// the paths of the styles, and warnings.
+#[pyfunction]
+#[pyo3(signature = (recordings, out, keys, progress = None))]
+pub(crate) fn fit_styles(
+    py: Python<'_>,
+    recordings: Vec<PathBuf>,
+    out: PathBuf,
+    keys: &Bound<'_, PyDict>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Fitted> {
+    let keys: Value = pythonize::depythonize(keys)?;
+    let (found, text, styles, warnings) = watched(py, progress.as_ref(), move |task| {
+        let keys: FitKeys = fitting(keys)?;
+        let judge = keys.judge;
+        let observed = keys.request(recordings.clone()).observe()?;
+        let warnings = observed.problems().iter().map(ToString::to_string).collect();
+        let judged = judge.map(|count| {
+            let rollouts = Rollouts { count, threads: threads() };
+            observed.judge(&rollouts, &|share| task.has_done(share))
+        });
+        let report: fit::FitReport = observed.fit_beside(judged.transpose()?.flatten())?;
+        if task.is_stopped() {
+            return Err(Fault::new("fit", "it was interrupted", "fit again")
+                .of_kind(FaultKind::State)
+                .into());
+        }
+        let styles = report.write(&out, &recordings, COMMAND)?;
+        Ok((plain(&report)?, report.to_text(), styles, warnings))
+    })?;
+    Ok(Fitted { found: to_python(py, &found)?, text, styles, warnings })
+}
+
+/// How a recording is replayed: what `laneweave replay` takes as options.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReplayKeys {
+    map: Option<PathBuf>,
+    columns: Option<PathBuf>,
+    reactive_share: f64,
+    reactive_ids: Vec<i64>,
+    reactive_from_s: f64,
+    rollouts: u64,
+    models: Option<Vec<String>>,
+}
+
+/// What a replay leaves.
+#[derive(IntoPyObject)]
+pub(crate) struct Replayed {
+    summary: Py<PyAny>,
+    files: Vec<PathBuf>,
+    warnings: Vec<String>,
+    found: Py<PyAny>,
+    text: String,
+}
+
+/// Replays recordings with its results in the folder `out`, compares its drivers with what was recorded of them, and
+/// returns the summary, the names of the files, warnings, and the report as data and in words.
+#[pyfunction]
+#[pyo3(signature = (recordings, out, how, keys, progress = None))]
+pub(crate) fn replay_recordings(
+    py: Python<'_>,
+    recordings: Vec<PathBuf>,
+    out: PathBuf,
+    how: &Bound<'_, PyDict>,
+    keys: &Bound<'_, PyDict>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Replayed> {
+    let how: Value = pythonize::depythonize(how)?;
+    let keys = Keys::new(Some(keys))?;
+    let ((summary, files, warnings), report, text) = watched(py, progress.as_ref(), move |task| {
+        let how: ReplayKeys = fitting(how)?;
+        replayed(recordings, out, how, keys, task)
+    })?;
+    Ok(Replayed { summary: to_python(py, &summary)?, files, warnings, found: to_python(py, &report)?, text })
+}
+
+fn replayed(
+    recordings: Vec<PathBuf>,
+    out: PathBuf,
+    how: ReplayKeys,
+    keys: Keys,
+    task: &Task,
+) -> Result<(crate::run::Left, Value, String), Failure> {
+    let has_map = |it: &&PathBuf| FileKind::of(it).has_tracks();
+    let map = how.map.or_else(|| recordings.first().filter(has_map).cloned());
+    let map = map.ok_or_else(|| {
+        let place = recordings.first().map_or(String::new(), |it| it.display().to_string());
+        Fault::new(place, "a recording needs the map of its location", "name it with map=")
+    })?;
+    let asked = AskedReplay {
+        rollouts: how.rollouts.max(1),
+        models: models(how.models, &replay::USUAL)?,
+        threads: threads(),
+    };
+    let replay = Replay {
+        recording: recordings.clone(),
+        columns: how.columns,
+        reactive_share: how.reactive_share,
+        reactive_ids: how.reactive_ids,
+        reactive_from_s: how.reactive_from_s,
+    };
+    let (mut scenario, notes) = replay::scenario(map, replay)?;
+    scenario.map_options.joins_ends = true;
+    scenario.output.dir = out;
+    let (scenario, origin) = keys.put(&scenario, Origin::default())?;
+    let show = |it: &Simulation| task.has_done(share(it));
+    let done = replay::replay(&scenario, &origin, &asked, COMMAND, show, || task.is_stopped())?;
+    let Some((report, _)) = done.write(&scenario.output.dir, &recordings, COMMAND)? else {
+        return Err(Fault::new("replay", "it was interrupted", "replay again")
+            .of_kind(FaultKind::State)
+            .into());
+    };
+    let (report, text) = (plain(report)?, report.to_text());
+    let (summary, files, warnings) = left(done.results)?;
+    Ok(((summary, files, notes.into_iter().chain(warnings).collect()), report, text))
+}
