@@ -47,11 +47,25 @@ impl Failure {
             Failure::Raised(raised) => return raised,
         };
         let made = py.import("laneweave._errors").and_then(|it| it.getattr(class(fault.kind)));
-        // An option of a command is a keyword argument here.
-        let place = fault.place.strip_prefix("--").map_or(fault.place.clone(), |it| it.replace('-', "_"));
-        let made = made.and_then(|it| it.call1((place, fault.what, fault.remedy)));
+        let place = argument(&fault.place);
+        let remedy = fault.remedy.replace("add --map MAP", "name it with map=");
+        let made = made.and_then(|it| it.call1((place, fault.what, remedy)));
         made.map_or_else(|error| error, PyErr::from_value)
     }
+}
+
+/// The place of a fault in the words of Python: an option of a command is an argument here.
+fn argument(place: &str) -> String {
+    const OTHERS: [(&str, &str); 5] = [
+        ("--lead", "lead_s"),
+        ("--position-error", "position_error_m"),
+        ("FROM", "from_lanelet"),
+        ("TO", "to_lanelet"),
+        ("NAME", "name"),
+    ];
+    let other = OTHERS.iter().find(|it| it.0 == place).map(|it| it.1.to_owned());
+    let option = || place.strip_prefix("--").map(|it| it.replace('-', "_"));
+    other.or_else(option).unwrap_or_else(|| place.to_owned())
 }
 
 /// What is held there, while no other thread uses it. `place` is its name.

@@ -9,13 +9,18 @@ use pyo3::prelude::*;
 use crate::control::control;
 use crate::errors::{Failure, detached, locked};
 use crate::template::Template;
+use crate::values::Signals;
 
 /// Many simulations of one template, stepped together on one pool of threads.
 #[pyclass(frozen, module = "laneweave")]
 pub(crate) struct Fleet {
     held: Mutex<laneweave::Fleet>,
     size: usize,
+    lanelets: Vec<i64>,
 }
+
+/// Steps between two looks at signals.
+const STEPS: u32 = 16;
 
 impl Fleet {
     fn with<T: Send>(
@@ -34,7 +39,8 @@ impl Fleet {
     fn new(py: Python<'_>, template: &Template, seeds: Vec<u64>, threads: usize) -> PyResult<Fleet> {
         detached(py, || {
             let fleet = laneweave::Fleet::new(&template.made, seeds, threads)?;
-            Ok(Fleet { size: fleet.len(), held: Mutex::new(fleet) })
+            let lanelets = template.made.spawn(0)?.lanelets();
+            Ok(Fleet { size: fleet.len(), held: Mutex::new(fleet), lanelets })
         })
     }
 
@@ -47,9 +53,22 @@ impl Fleet {
     #[pyo3(signature = (steps = 1))]
     fn step(&self, py: Python<'_>, steps: u32) -> PyResult<()> {
         self.with(py, |it| {
-            it.step(steps);
+            let mut signals = Signals::new();
+            let mut left = steps;
+            while left > 0 {
+                let now = left.min(STEPS);
+                it.step(now);
+                left -= now;
+                signals.check()?;
+            }
             Ok(())
         })
+    }
+
+    /// The ids of all lanelets: the column `lanelet_index` has places in this list.
+    #[getter]
+    fn lanelets(&self) -> Vec<i64> {
+        self.lanelets.clone()
     }
 
     /// Lets one of the simulations begin anew with this seed.
@@ -102,14 +121,14 @@ impl Fleet {
         py: Python<'_>,
         mut counts: PyReadwriteArray1<'_, u32>,
         mut vehicle: PyReadwriteArray1<'_, VehicleId>,
-        mut lanelet: PyReadwriteArray1<'_, u32>,
+        mut lanelet_index: PyReadwriteArray1<'_, u32>,
         mut position_m: PyReadwriteArray1<'_, f64>,
         mut speed_mps: PyReadwriteArray1<'_, f64>,
         mut acceleration_mps2: PyReadwriteArray1<'_, f32>,
     ) -> PyResult<usize> {
         let rows = Rows {
             id: vehicle.as_slice_mut()?,
-            lanelet: lanelet.as_slice_mut()?,
+            lanelet: lanelet_index.as_slice_mut()?,
             position_m: position_m.as_slice_mut()?,
             speed_mps: speed_mps.as_slice_mut()?,
             acceleration_mps2: acceleration_mps2.as_slice_mut()?,

@@ -4,13 +4,15 @@ use std::path::PathBuf;
 
 use laneweave::scenario::{MapOptions, Origin, Scenario};
 use laneweave::{Fault, FaultKind, did_you_mean, in_words};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyDict;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::errors::Failure;
 use crate::map::Map;
+use crate::values::given;
 
 /// Keys that are so common that they need no table.
 const SHORT: [(&str, &str); 8] = [
@@ -25,6 +27,8 @@ const SHORT: [(&str, &str); 8] = [
 ];
 /// The table of styles, which is given as a whole: its keys are names.
 const STYLES: &str = "styles";
+/// The table with the folder of results.
+const OUTPUT: &str = "output";
 /// The place of a fault.
 const PLACE: &str = "keyword arguments";
 
@@ -53,12 +57,20 @@ impl Asked {
     ///
     /// # Errors
     /// If a value is neither a number, a text, a list, a dict nor a style.
-    pub(crate) fn new(given: Given<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Asked> {
-        let (source, options) = match given {
+    pub(crate) fn new(
+        py: Python<'_>,
+        source: Given<'_>,
+        keys: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Asked> {
+        let (source, options) = match source {
             Given::Map(map) => (map.path.clone(), Some(map.options.clone())),
             Given::File(path) => (path, None),
         };
-        Ok(Asked { source, options, keys: Keys::new(keys)? })
+        if source.to_str().is_none() {
+            let fault = Fault::new(source.display(), "this name is no text in UTF-8", "rename the file");
+            return Err(Failure::from(fault.of_kind(FaultKind::File)).raise(py));
+        }
+        Ok(Asked { source, options, keys: Keys::new(py, keys)? })
     }
 
     /// The scenario, with the source of its values.
@@ -85,31 +97,43 @@ impl Keys {
     ///
     /// # Errors
     /// If a value is neither a number, a text, a list, a dict nor a style.
-    pub(crate) fn new(keys: Option<&Bound<'_, PyDict>>) -> PyResult<Keys> {
+    pub(crate) fn new(py: Python<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Keys> {
         let mut all = Keys { values: Table::new(), styles: Vec::new() };
         for (key, value) in keys.into_iter().flat_map(PyDictMethods::iter) {
             let key: String = key.extract()?;
             let value = match value.cast::<PyDict>() {
-                Ok(styles) if key == STYLES => all.mixture(styles)?,
-                _ => pythonize::depythonize(&value)?,
+                Ok(styles) if key == STYLES => all.mixture(py, styles)?,
+                _ => given(&key, &value)?,
             };
+            if key == OUTPUT && value.get("dir").is_some() {
+                let fault =
+                    Fault::new("output.dir", "the folder of results is an argument", "give it as out=");
+                return Err(Failure::from(fault.of_kind(FaultKind::Value)).raise(py));
+            }
             all.values.insert(key, value);
         }
         Ok(all)
     }
 
     /// The weights of styles, by their names. The texts of styles that are given themselves are kept.
-    fn mixture(&mut self, styles: &Bound<'_, PyDict>) -> PyResult<Value> {
+    fn mixture(&mut self, py: Python<'_>, styles: &Bound<'_, PyDict>) -> PyResult<Value> {
         let mut weights = Table::new();
         for (style, weight) in styles {
-            let name: String = if style.is_instance_of::<PyString>() {
-                style.extract()?
-            } else {
+            let name: String = if style.hasattr("to_toml")? {
                 let name: String = style.getattr("name")?.extract()?;
                 self.styles.push((name.clone(), style.call_method0("to_toml")?.extract()?));
                 name
+            } else {
+                match given(STYLES, &style)? {
+                    Value::String(name) => name,
+                    other => return Err(PyTypeError::new_err(format!("styles: {other} is no style"))),
+                }
             };
-            weights.insert(name, pythonize::depythonize(&weight)?);
+            let place = format!("{STYLES}.{name}");
+            if weights.insert(name, given(&place, &weight)?).is_some() {
+                let fault = Fault::new(place, "two styles have this name", "give each its own name");
+                return Err(Failure::from(fault.of_kind(FaultKind::Style)).raise(py));
+            }
         }
         Ok(Value::Object(weights))
     }
@@ -118,7 +142,7 @@ impl Keys {
     ///
     /// # Errors
     /// If a key is unknown, or its value of another kind.
-    pub(crate) fn put(self, scenario: &Scenario, origin: Origin) -> Result<(Scenario, Origin), Failure> {
+    pub(crate) fn put(self, scenario: &Scenario, mut origin: Origin) -> Result<(Scenario, Origin), Failure> {
         let mut all = serde_json::to_value(scenario).map_err(|it| Fault::bug("scenario", it))?;
         for (key, value) in self.values {
             let short = SHORT.iter().find(|it| it.0 == key);
@@ -126,6 +150,10 @@ impl Keys {
             if short.is_none() && !known.clone().any(|it| it == key) {
                 let names = known.chain(SHORT.iter().map(|it| it.0));
                 return Err(wrong(format!("unknown key {key:?}"), did_you_mean(&key, names)));
+            }
+            match short {
+                Some((_, table)) => origin.replaced(format!("{table}.{key}"), key.clone()),
+                None => replaced(&mut origin, &key, &value),
             }
             let one = Value::Object([(key, value)].into_iter().collect());
             match short {
@@ -135,6 +163,16 @@ impl Keys {
         }
         let origin = self.styles.iter().fold(origin, |origin, (name, text)| origin.with_style(name, text));
         Ok((fitting(all)?, origin))
+    }
+}
+
+/// Notes that the program gave this key, with all in it.
+fn replaced(origin: &mut Origin, key: &str, value: &Value) {
+    match value.as_object() {
+        Some(table) if key != STYLES => {
+            table.iter().for_each(|(name, it)| replaced(origin, &format!("{key}.{name}"), it));
+        }
+        _ => origin.replaced(key, key),
     }
 }
 

@@ -11,11 +11,10 @@ use laneweave_studies::routes::ways;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::Value;
 
 use crate::errors::{Failure, detached};
 use crate::keys::fitting;
-use crate::values::{plain, to_python};
+use crate::values::{given, plain, to_python};
 
 /// A map that was read: its lanelets, what is wrong with it, and the ways through it.
 #[pyclass(frozen, module = "laneweave")]
@@ -45,7 +44,7 @@ impl Map {
     #[new]
     #[pyo3(signature = (path, **options))]
     fn new(py: Python<'_>, path: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<Map> {
-        let options: Option<Value> = options.map(|it| pythonize::depythonize(it)).transpose()?;
+        let options = options.map(|it| given("options", it)).transpose()?;
         detached(py, || {
             let options: MapOptions = options.map_or(Ok(MapOptions::default()), fitting)?;
             let read = open_map(&path, &options)?;

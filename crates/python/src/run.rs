@@ -41,7 +41,7 @@ pub(crate) fn run(
     progress: Option<Py<PyAny>>,
     keys: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(Py<PyAny>, Vec<PathBuf>, Vec<String>)> {
-    let asked = Asked::new(source, keys)?;
+    let asked = Asked::new(py, source, keys)?;
     let (summary, files, warnings) = watched(py, progress.as_ref(), move |task| {
         let (mut scenario, origin) = asked.read()?;
         scenario.output.dir = out;

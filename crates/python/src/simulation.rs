@@ -1,10 +1,11 @@
 //! The class `Simulation`.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use laneweave::{Class, Columns, Control, Event, NewVehicle, Parameter, VehicleId};
-use laneweave_viewer::picture;
+use laneweave::{Fault, FaultKind};
+use laneweave_viewer::{Camera, Surroundings, picture};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
@@ -12,7 +13,7 @@ use serde::Serialize;
 use crate::control::control;
 use crate::errors::{Failure, detached, locked, refused};
 use crate::keys::Given;
-use crate::template::template;
+use crate::template::Template;
 use crate::values::{Signals, array, named, to_python};
 use crate::view::{GivenCamera, View, live};
 
@@ -22,11 +23,15 @@ pub(crate) struct Simulation {
     /// `None` once it is closed.
     held: Mutex<Option<laneweave::Simulation>>,
     template: laneweave::Template,
+    /// What the map has beside its network.
+    around: Arc<Surroundings>,
 }
 
 impl Simulation {
-    pub(crate) fn spawned(template: laneweave::Template, seed: u64) -> Result<Simulation, Failure> {
-        Ok(Simulation { held: Mutex::new(Some(template.spawn(seed)?)), template })
+    pub(crate) fn spawned(template: &Template, seed: u64) -> Result<Simulation, Failure> {
+        let Template { made, around } = template;
+        let held = Mutex::new(Some(made.spawn(seed)?));
+        Ok(Simulation { held, template: made.clone(), around: Arc::clone(around) })
     }
 
     /// Another simulation in the same state.
@@ -73,9 +78,9 @@ impl Simulation {
     #[new]
     #[pyo3(signature = (source, **keys))]
     fn new(py: Python<'_>, source: Given<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Simulation> {
-        let template = template(py, source, keys)?;
-        let seed = template.scenario().run.seed;
-        detached(py, || Simulation::spawned(template, seed))
+        let template = Template::of(py, source, keys)?;
+        let seed = template.made.scenario().run.seed;
+        detached(py, || Simulation::spawned(&template, seed))
     }
 
     /// Simulates `count` steps, and returns what happened in them.
@@ -331,12 +336,14 @@ impl Simulation {
     fn branch(&self, py: Python<'_>) -> PyResult<Simulation> {
         self.with(py, |it| {
             let branch = Mutex::new(Some(self.branched(it)?));
-            Ok(Simulation { held: branch, template: self.template.clone() })
+            let (template, around) = (self.template.clone(), Arc::clone(&self.around));
+            Ok(Simulation { held: branch, template, around })
         })
     }
 
     /// A picture of the traffic as it is now, as PNG.
     #[pyo3(signature = (camera, size))]
+    #[pyo3(name = "_png")]
     fn png<'py>(
         &self,
         py: Python<'py>,
@@ -345,22 +352,36 @@ impl Simulation {
     ) -> PyResult<Bound<'py, PyBytes>> {
         let camera = camera.camera().map_err(|it| it.raise(py))?;
         let picture = self.with(py, |it| {
-            let mut shown = live(self.branched(it)?, Path::new(""))?;
+            if let Camera::Follow(id) = camera
+                && VehicleId::try_from(id).ok().and_then(|id| it.view(id)).is_none()
+            {
+                let what = format!("vehicle {id} is not on the road");
+                let fault = Fault::new("camera", what, "choose one of simulation.vehicles()");
+                return Err(fault.of_kind(FaultKind::NotFound).into());
+            }
+            let mut shown = live(self.branched(it)?, &self.around, Path::new(""));
             Ok(picture(&mut shown, camera, size)?)
         })?;
         Ok(PyBytes::new(py, &picture))
     }
 
     /// The page in the browser with a branch of it, which goes on by itself.
+    #[pyo3(name = "_view")]
     fn view(&self, py: Python<'_>, saved: PathBuf, port: u16) -> PyResult<View> {
-        self.with(py, |it| View::of(Box::new(live(self.branched(it)?, &saved)?), port))
+        self.with(py, |it| View::of(Box::new(live(self.branched(it)?, &self.around, &saved)), port))
     }
 
     /// Frees its memory. Nothing can be asked of it any more.
-    fn close(&self) {
-        if let Ok(mut held) = self.held.try_lock() {
-            *held = None;
-        }
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        detached(py, || {
+            *locked(&self.held, "simulation")? = None;
+            Ok(())
+        })
+    }
+
+    /// It is there, also while nobody is on the road.
+    fn __bool__(&self) -> bool {
+        true
     }
 
     fn __enter__(this: Py<Simulation>) -> Py<Simulation> {
@@ -368,8 +389,8 @@ impl Simulation {
     }
 
     #[pyo3(signature = (*_exception))]
-    fn __exit__(&self, _exception: &Bound<'_, pyo3::types::PyTuple>) {
-        self.close();
+    fn __exit__(&self, py: Python<'_>, _exception: &Bound<'_, pyo3::types::PyTuple>) -> PyResult<()> {
+        self.close(py)
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

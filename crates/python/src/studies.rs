@@ -23,7 +23,11 @@ use crate::errors::Failure;
 use crate::keys::{Asked, Given, Keys, fitting};
 use crate::run::{COMMAND, left, share};
 use crate::task::{Task, watched};
-use crate::values::{named, plain, to_python};
+use crate::values::{given, named, plain, to_python};
+
+fn wrong(place: &str, what: &str, remedy: &str) -> Failure {
+    Fault::new(place, what, remedy).of_kind(FaultKind::Value).into()
+}
 
 fn threads() -> usize {
     available_parallelism().map_or(1, NonZero::get)
@@ -46,7 +50,7 @@ pub(crate) fn compare_models(
     progress: Option<Py<PyAny>>,
     keys: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, [PathBuf; 2])> {
-    let asked = sources.into_iter().map(|it| Asked::new(it, keys)).collect::<PyResult<Vec<Asked>>>()?;
+    let asked = sources.into_iter().map(|it| Asked::new(py, it, keys)).collect::<PyResult<Vec<Asked>>>()?;
     watched(py, progress.as_ref(), move |task| compared(asked, &out, models, seeds, task))
 }
 
@@ -68,16 +72,16 @@ fn compared(
         inputs.push((name, scenario, origin, seeds));
     }
     if inputs.is_empty() || models.is_empty() || seeds == 0 {
-        let what = "nothing to compare";
-        return Err(Fault::new("compare", what, "give scenarios, models and seeds")
-            .of_kind(FaultKind::Value)
-            .into());
+        return Err(wrong("compare", "nothing to compare", "give scenarios, models and seeds"));
     }
     let mut files = ComparisonFiles::begin(out)?;
     let (mut text, count) = (String::new(), inputs.len() as f64);
     for (done, (name, scenario, origin, seeds)) in inputs.into_iter().enumerate() {
-        task.has_done(done as f64 / count);
-        let comparison = compare::compare(&scenario, &origin, &models, &seeds, threads())?;
+        let goes_on = |share: f64| {
+            task.has_done((done as f64 + share) / count);
+            !task.is_stopped()
+        };
+        let comparison = compare::compare(&scenario, &origin, &models, &seeds, threads(), goes_on)?;
         text += &comparison.to_titled_text(&name, scenario.run.duration_s);
         files.add(name, comparison)?;
     }
@@ -164,10 +168,13 @@ pub(crate) fn fit_styles(
     keys: &Bound<'_, PyDict>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Fitted> {
-    let keys: Value = pythonize::depythonize(keys)?;
+    let keys = given("fit", keys)?;
     let (found, text, styles, warnings) = watched(py, progress.as_ref(), move |task| {
         let keys: FitKeys = fitting(keys)?;
         let judge = keys.judge;
+        if judge.is_some_and(|it| !(2..=10_000).contains(&it)) {
+            return Err(wrong("judge", "it is out of range", "choose 2 to 10000"));
+        }
         let observed = keys.request(recordings.clone()).observe()?;
         let warnings = observed.problems().iter().map(ToString::to_string).collect();
         let judged = judge.map(|count| {
@@ -221,8 +228,8 @@ pub(crate) fn replay_recordings(
     keys: &Bound<'_, PyDict>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Replayed> {
-    let how: Value = pythonize::depythonize(how)?;
-    let keys = Keys::new(Some(keys))?;
+    let how = given("replay", how)?;
+    let keys = Keys::new(py, Some(keys))?;
     let ((summary, files, warnings), report, text) = watched(py, progress.as_ref(), move |task| {
         let how: ReplayKeys = fitting(how)?;
         replayed(recordings, out, how, keys, task)
@@ -237,6 +244,12 @@ fn replayed(
     keys: Keys,
     task: &Task,
 ) -> Result<(crate::run::Left, Value, String), Failure> {
+    if !(1..=1000).contains(&how.rollouts) {
+        return Err(wrong("rollouts", "it is out of range", "choose 1 to 1000"));
+    }
+    if recordings.is_empty() {
+        return Err(wrong("recordings", "there is none", "name a file"));
+    }
     let has_map = |it: &&PathBuf| FileKind::of(it).has_tracks();
     let map = how.map.or_else(|| recordings.first().filter(has_map).cloned());
     let map = map.ok_or_else(|| {
@@ -244,7 +257,7 @@ fn replayed(
         Fault::new(place, "a recording needs the map of its location", "name it with map=")
     })?;
     let asked = AskedReplay {
-        rollouts: how.rollouts.max(1),
+        rollouts: how.rollouts,
         models: models(how.models, &replay::USUAL)?,
         threads: threads(),
     };

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{Failure, detached};
+use crate::values::given;
 
 fn named(name: &str) -> Result<Source, Fault> {
     find(name, Path::new("."), || "style".into()).map_err(|fault| fault.of_kind(FaultKind::Style))
@@ -26,13 +27,13 @@ pub(crate) fn style_text(py: Python<'_>, name: &str) -> PyResult<String> {
 /// The text of a new style like another one.
 #[pyfunction]
 pub(crate) fn new_style(py: Python<'_>, name: &str, base: &str) -> PyResult<String> {
-    detached(py, || Ok(copy(&named(base)?, name)?))
+    detached(py, || Ok(copy(&named(base)?, name).map_err(|it| it.of_kind(FaultKind::Style))?))
 }
 
 /// The text of a style file with these values.
 #[pyfunction]
 pub(crate) fn style_of(py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<String> {
-    let values: toml::Table = pythonize::depythonize(values)?;
+    let values = given("style", values)?;
     detached(py, || {
         let text = toml::to_string(&values).map_err(|error| -> Failure {
             Fault::new("style", error, "correct the value").of_kind(FaultKind::Style).into()

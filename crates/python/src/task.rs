@@ -14,7 +14,7 @@ use crate::errors::{Failure, caught};
 /// Time between two looks at work.
 const EVERY: Duration = Duration::from_millis(100);
 /// Work that does not end so soon after Ctrl-C goes on until the interpreter ends; nobody takes its results.
-const PATIENCE: Duration = Duration::from_secs(5);
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What work tells, and is told.
 #[derive(Default)]

@@ -1,5 +1,9 @@
 //! The class `Template`.
 
+use std::sync::Arc;
+
+use laneweave::scenario::read_map;
+use laneweave_viewer::Surroundings;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -12,19 +16,26 @@ use crate::values::to_python;
 #[pyclass(frozen, module = "laneweave")]
 pub(crate) struct Template {
     pub(crate) made: laneweave::Template,
+    /// What the map has beside its network.
+    pub(crate) around: Arc<Surroundings>,
 }
 
-/// A template of the scenario or the map `source`.
-pub(crate) fn template(
-    py: Python<'_>,
-    source: Given<'_>,
-    keys: Option<&Bound<'_, PyDict>>,
-) -> PyResult<laneweave::Template> {
-    let asked = Asked::new(source, keys)?;
-    detached(py, || {
-        let (scenario, origin) = asked.read()?;
-        Ok(laneweave::Simulation::from_scenario(&scenario, &origin)?.into_template()?)
-    })
+impl Template {
+    /// A template of the scenario or the map `source`.
+    pub(crate) fn of(
+        py: Python<'_>,
+        source: Given<'_>,
+        keys: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Template> {
+        let asked = Asked::new(py, source, keys)?;
+        detached(py, || {
+            let (scenario, origin) = asked.read()?;
+            let map = read_map(&scenario, &origin)?;
+            let around = Arc::new(Surroundings::of(&map));
+            let simulation = laneweave::Simulation::from_scenario_on(map, &scenario, &origin)?;
+            Ok(Template { made: simulation.into_template()?, around })
+        })
+    }
 }
 
 #[pymethods]
@@ -32,12 +43,12 @@ impl Template {
     #[new]
     #[pyo3(signature = (source, **keys))]
     fn new(py: Python<'_>, source: Given<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Template> {
-        Ok(Template { made: template(py, source, keys)? })
+        Template::of(py, source, keys)
     }
 
     /// A simulation at its start, with this seed of all random numbers.
     fn spawn(&self, py: Python<'_>, seed: u64) -> PyResult<Simulation> {
-        detached(py, || Simulation::spawned(self.made.clone(), seed))
+        detached(py, || Simulation::spawned(self, seed))
     }
 
     /// The scenario as a dict, with the keys of a scenario file.

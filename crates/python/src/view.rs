@@ -2,38 +2,47 @@
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use laneweave::Fault;
 use laneweave::scenario::MapOptions;
-use laneweave_viewer::{Camera, Doorway, Server, Shown, Source, Token};
+use laneweave::{Fault, FaultKind};
+use laneweave_viewer::{Camera, Doorway, Live, Server, Shown, Source, Surroundings, Token};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::Value;
 
-use crate::errors::{Failure, detached, locked};
+use crate::errors::{Failure, detached, refused};
 use crate::keys::fitting;
+use crate::values::given;
 
 /// The page in the browser: it is served until it is closed.
 #[pyclass(frozen, module = "laneweave")]
 pub(crate) struct View {
     /// `None` once it is closed.
-    held: Mutex<Option<(Server, Doorway)>>,
+    held: Mutex<Option<Served>>,
     url: String,
-    doorway: PathBuf,
+}
+
+/// What ends with a view: its server, and the file that leads a browser there, if one was opened.
+struct Served {
+    _server: Server,
+    doorway: Option<Doorway>,
 }
 
 impl View {
     /// Serves `source`; port 0 is any free one.
     pub(crate) fn of(source: Box<dyn Source>, port: u16) -> Result<View, Failure> {
         let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-        let server = Server::start(source, address, Token::new())
-            .map_err(|error| Fault::new(format!("view: {address}"), error, "choose another port"))?;
+        let server = Server::start(source, address, Token::new()).map_err(|error| {
+            let fault = Fault::new(format!("view: {address}"), error, "choose another port");
+            fault.of_kind(FaultKind::File)
+        })?;
         let url = server.url();
-        let doorway =
-            Doorway::to(&url).map_err(|error| Fault::refused(&std::env::temp_dir(), "written", &error))?;
-        let path = doorway.path().to_owned();
-        Ok(View { held: Mutex::new(Some((server, doorway))), url, doorway: path })
+        Ok(View { held: Mutex::new(Some(Served { _server: server, doorway: None })), url })
+    }
+
+    /// What ends with it. Nobody holds it for long.
+    fn held(&self) -> MutexGuard<'_, Option<Served>> {
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -45,22 +54,31 @@ impl View {
         &self.url
     }
 
-    /// A file that leads a browser to the page, and that only you can read.
-    #[getter]
-    fn doorway(&self) -> PathBuf {
-        self.doorway.clone()
+    /// A file that leads a browser to the page, and that only you can read; it is there until the view is closed.
+    fn doorway(&self, py: Python<'_>) -> PyResult<PathBuf> {
+        detached(py, || {
+            let mut held = self.held();
+            let served = held.as_mut().ok_or_else(|| refused("view", "it is closed", "make a new one"))?;
+            let doorway = match served.doorway.take() {
+                Some(doorway) => doorway,
+                None => Doorway::to(&self.url)
+                    .map_err(|error| Fault::refused(&std::env::temp_dir(), "written", &error))?,
+            };
+            Ok(served.doorway.insert(doorway).path().to_owned())
+        })
     }
 
     /// Whether it is closed.
     #[getter]
-    fn is_closed(&self, py: Python<'_>) -> PyResult<bool> {
-        detached(py, || Ok(locked(&self.held, "view")?.is_none()))
+    fn is_closed(&self) -> bool {
+        self.held().is_none()
     }
 
     /// Ends the page.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         detached(py, || {
-            drop(locked(&self.held, "view")?.take());
+            let gone = self.held().take();
+            drop(gone);
             Ok(())
         })
     }
@@ -78,7 +96,7 @@ pub(crate) fn view_files(
     saved: PathBuf,
     port: u16,
 ) -> PyResult<View> {
-    let options: Value = pythonize::depythonize(options)?;
+    let options = given("map_options", options)?;
     detached(py, || {
         let options: MapOptions = fitting(options)?;
         View::of(Shown { input, map, columns, options }.source(&saved)?, port)
@@ -92,23 +110,25 @@ pub(crate) enum GivenCamera {
     #[pyo3(transparent, annotation = "int")]
     Vehicle(i64),
     /// Above this place, with so much width in view [m].
-    #[pyo3(transparent, annotation = "tuple[float, float, float]")]
-    Place((f64, f64, f64)),
+    #[pyo3(transparent, annotation = "(x_m, y_m, width_m)")]
+    Place(Vec<f64>),
     /// By a name.
     #[pyo3(transparent, annotation = "str")]
     Name(String),
+}
+
+fn is_place(numbers: &[f64]) -> bool {
+    matches!(numbers, [x, y, width] if x.is_finite() && y.is_finite() && (1.0..=1e6).contains(width))
 }
 
 impl GivenCamera {
     pub(crate) fn camera(self) -> Result<Camera, Failure> {
         match self {
             GivenCamera::Vehicle(id) => Ok(Camera::Follow(id)),
-            GivenCamera::Place((x, y, width))
-                if x.is_finite() && y.is_finite() && (1.0..=1e6).contains(&width) =>
-            {
-                Ok(Camera::Place { x, y, width })
-            }
             GivenCamera::Name(name) if name == "map" => Ok(Camera::Map),
+            GivenCamera::Place(numbers) if is_place(&numbers) => {
+                Ok(Camera::Place { x: numbers[0], y: numbers[1], width: numbers[2] })
+            }
             _ => {
                 let remedy =
                     "choose \"map\", (x_m, y_m, width_m) with a width of 1 to 1000000 m, or a vehicle";
@@ -118,17 +138,7 @@ impl GivenCamera {
     }
 }
 
-/// What a map has beside its network.
-pub(crate) fn around(simulation: &laneweave::Simulation) -> Result<laneweave_viewer::Surroundings, Failure> {
-    let map = laneweave::scenario::read_map(simulation.scenario(), simulation.origin())?;
-    Ok(laneweave_viewer::Surroundings::of(&map))
-}
-
-/// A source that goes on from where `simulation` is.
-pub(crate) fn live(
-    simulation: laneweave::Simulation,
-    saved: &Path,
-) -> Result<laneweave_viewer::Live, Failure> {
-    let around = around(&simulation)?;
-    Ok(laneweave_viewer::Live::of(simulation, around, saved.to_owned()))
+/// A source that goes on from where `simulation` is, on a map that has this beside its network.
+pub(crate) fn live(simulation: laneweave::Simulation, around: &Surroundings, saved: &Path) -> Live {
+    Live::of(simulation, around.clone(), saved.to_owned())
 }

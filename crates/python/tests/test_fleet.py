@@ -34,6 +34,7 @@ def egos(fleet: lw.Fleet) -> npt.NDArray[np.uint32]:
 def test_columns_are_filled_one_simulation_after_the_other(fleet: lw.Fleet) -> None:
     counts, arrays = np.zeros(SIZE, np.uint32), columns(500)
     total = fleet.columns(counts, *arrays)
+    assert arrays[1][:total].max() < len(fleet.lanelets)
     assert total == counts.sum() > SIZE
     assert (arrays[3][:total] > 0).any() and not arrays[3][total:].any()
     with pytest.raises(lw.ScenarioError, match=f"give each column {total} rows or more"):

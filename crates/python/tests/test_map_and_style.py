@@ -70,8 +70,15 @@ def test_a_run_keeps_the_style_that_it_was_given(ramps: Path, tmp_path: Path) ->
     assert "mine" in (results.folder / "scenario.toml").read_text()
 
 
+def test_two_styles_have_two_names(ramps: Path, tmp_path: Path) -> None:
+    with pytest.raises(lw.StyleError, match="two styles have this name"):
+        lw.Simulation(ramps, styles={lw.Style("mine"): 1, lw.Style("mine", base="aggressive"): 1})
+    path = lw.Style("mine").save(tmp_path / "mine.toml")
+    assert lw.Simulation(ramps, styles={path: 1}).styles == [("mine", 1.0)]
+
+
 def test_wrong_styles_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(lw.LaneweaveError, match="built-in style"):
+    with pytest.raises(lw.StyleError, match="name: .*built-in style"):
         lw.Style("aggressive")
     with pytest.raises(lw.StyleError, match='did you mean "aggressive"'):
         lw.Style("mine", base="agressive")

@@ -8,6 +8,7 @@ from typing import Any
 
 import laneweave as lw
 import numpy as np
+import pytest
 
 RUNS = int(os.environ.get("LANEWEAVE_MISUSES") or 500)
 
@@ -19,6 +20,11 @@ ODD: list[Any] = [
 ]  # fmt: skip
 
 
+ENDLESS: list[Any] = []
+ENDLESS.append(ENDLESS)
+ODD.append(ENDLESS)
+
+
 def calls(objects: list[Any]) -> list[Callable[..., Any]]:
     """All methods of these objects."""
     names = [(it, name) for it in objects for name in dir(type(it)) if not name.startswith("_")]
@@ -27,7 +33,8 @@ def calls(objects: list[Any]) -> list[Callable[..., Any]]:
     return [getattr(it, name) for it, name in methods if name not in ("close", "run")]
 
 
-def test_random_misuse_raises_exceptions_only(merge: Path) -> None:
+def test_random_misuse_raises_exceptions_only(merge: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     dice = random.Random(1)
     template = lw.Template(merge, vehicles_per_hour=2400)
     simulation, fleet = template.spawn(1), lw.Fleet(template, range(6))
@@ -35,11 +42,14 @@ def test_random_misuse_raises_exceptions_only(merge: Path) -> None:
     closed = template.spawn(2)
     closed.close()
     known = [it["id"] for it in simulation.vehicles()] + simulation.lanelets
-    methods = calls([simulation, fleet, template, closed]) + [lw.Simulation, lw.Template, lw.Fleet]
+    road, style = lw.Map(merge), lw.Style("mine")
+    methods = calls([simulation, fleet, template, closed, road, style])
+    methods += [lw.Simulation, lw.Template, lw.Fleet, lw.Map, lw.Style, lw.Style.read, lw.example, lw.picture]
+    methods += [lw.run, lw.compare, lw.fit, lw.replay]
     refused = 0
     for _ in range(RUNS):
         method = dice.choice(methods)
-        pool = ODD + [template, simulation, fleet, closed, dice.choice(known)]
+        pool = ODD + [template, simulation, fleet, closed, style, dice.choice(known)]
         arguments = [dice.choice(pool) for _ in range(dice.randrange(5))]
         if method.__name__ == "step" and any(isinstance(it, int) and it > 100 for it in arguments):
             continue

@@ -2,11 +2,13 @@
 
 import pickle
 import signal
+import tempfile
 import threading
 from pathlib import Path
 from typing import Any
 
 import laneweave as lw
+import numpy as np
 import pytest
 
 
@@ -18,7 +20,37 @@ def test_a_run_has_a_summary_tables_and_a_report(ramps: Path, tmp_path: Path) ->
     with pytest.raises(KeyError, match="choose one of commands, incidents"):
         results.table("trip")
     pytest.importorskip("pyarrow")
-    assert len(results.table("trips")) == results.summary["entered"]
+    assert len(results.table("trips")) == results.table("trips", "pyarrow").num_rows == results.summary["entered"]
+    with pytest.raises(ValueError, match="choose one of pandas, polars, pyarrow"):
+        results.table("trips", "panda")
+
+
+ENDLESS: list[Any] = []
+ENDLESS.append(ENDLESS)
+
+
+def test_keys_are_numbers_of_numpy_and_paths_too(ramps: Path, tmp_path: Path) -> None:
+    keys = {"vehicles_per_hour": np.float32(1000), "seed": np.int64(3), "map_options": {"origin": np.array([49.0, 8.0])}}
+    scenario = lw.Simulation(ramps, **keys).scenario
+    assert (scenario["run"]["seed"], scenario["map_options"]["origin"]) == (3, (49.0, 8.0))
+    (tmp_path / "own.toml").write_text(f'map = "{ramps}"\n[demand]\ntrucks = 0.1\n')
+    with pytest.raises(lw.ScenarioError, match="^trucks: "):
+        lw.Simulation(tmp_path / "own.toml", trucks=3)
+
+
+def test_a_refused_run_leaves_no_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with pytest.raises(lw.NotFoundError):
+        lw.run("nowhere.osm")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_ends_as_a_simulation_does(ramps: Path, tmp_path: Path) -> None:
+    keys = {"vehicles_per_hour": 2000, "duration_s": 20, "seed": 6}
+    results = lw.run(ramps, tmp_path / "out", progress=False, **keys)
+    simulation = lw.Simulation(ramps, **keys)
+    simulation.run(simulation.end_s)
+    assert results.summary["state_hash"] == f"{simulation.state_hash:016x}"
 
 
 @pytest.mark.parametrize(
@@ -29,7 +61,11 @@ def test_a_run_has_a_summary_tables_and_a_report(ramps: Path, tmp_path: Path) ->
         ({"demand": {"truks": 0.3}}, lw.ScenarioError, 'did you mean "trucks"'),
         ({"styles": {"agressive": 1}}, lw.StyleError, 'did you mean "aggressive"'),
         ({"seed": "one"}, lw.ScenarioError, "invalid type"),
-        ({"seed": object()}, TypeError, "object"),
+        ({"seed": object()}, TypeError, "seed: the type object"),
+        ({"seed": ENDLESS}, TypeError, "seed: it is too deep"),
+        ({"vehicles_per_hour": float("nan")}, TypeError, "vehicles_per_hour: it is no finite number"),
+        ({"output": {"dir": "elsewhere"}}, lw.ScenarioError, "give it as out="),
+        ({"trucks": 3}, lw.ScenarioError, "trucks: a share"),
     ],
 )
 def test_wrong_keys_are_refused(

@@ -1,6 +1,8 @@
 """A simulation steps, tells, takes commands, and is saved."""
 
+import multiprocessing
 import threading
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import laneweave as lw
@@ -81,7 +83,13 @@ def test_the_same_seed_gives_the_same_bits_however_it_is_made(merge: Path) -> No
     assert {alone.state_hash, spawned.state_hash, again.state_hash, fleet.state_hashes[1]} == {alone.state_hash}
 
 
-def test_eight_threads_have_eight_simulations(merge: Path) -> None:
+def hash_in_a_process(map: Path, seed: int) -> int:
+    simulation = lw.Simulation(map, vehicles_per_hour=2400, seed=seed, drivers_seed=1)
+    simulation.run(30.0)
+    return simulation.state_hash
+
+
+def test_eight_simulations_in_threads_are_those_of_eight_processes(merge: Path) -> None:
     template = lw.Template(merge, vehicles_per_hour=2400)
     hashes: dict[int, int] = {}
 
@@ -95,10 +103,9 @@ def test_eight_threads_have_eight_simulations(merge: Path) -> None:
         it.start()
     for it in threads:
         it.join()
-    for seed in range(8):
-        alone = template.spawn(seed)
-        alone.run(30.0)
-        assert hashes[seed] == alone.state_hash
+    with ProcessPoolExecutor(2, multiprocessing.get_context("spawn"), max_tasks_per_child=1) as processes:
+        alone = list(processes.map(hash_in_a_process, [merge] * 8, range(8)))
+    assert [hashes[it] for it in range(8)] == alone
 
 
 def test_a_closed_simulation_and_one_in_use_are_refused(ramps: Path) -> None:

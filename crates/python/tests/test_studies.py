@@ -26,11 +26,22 @@ def test_wrong_studies_are_refused(ramps: Path, tmp_path: Path) -> None:
         lw.compare([], tmp_path / "out")
     with pytest.raises(lw.LaneweaveError, match="choose 0 to 10 s"):
         lw.fit(tmp_path / "tracks.csv", ramps, tmp_path / "out", lead_s=11.0)
+    with pytest.raises(lw.LaneweaveError, match="classes: 0 is out of range"):
+        lw.fit(tmp_path / "tracks.csv", ramps, classes=0)
+    with pytest.raises(lw.LaneweaveError, match="recordings: there is none"):
+        lw.fit([], ramps)
     with pytest.raises(lw.NotFoundError):
         lw.fit(tmp_path / "tracks.csv", ramps, tmp_path / "out")
     with pytest.raises(lw.LaneweaveError, match="needs the map"):
         lw.replay(tmp_path / "tracks.csv")
     assert not (tmp_path / "out").exists()
+
+
+def test_ctrl_c_ends_a_comparison(ramps: Path, tmp_path: Path) -> None:
+    threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        lw.compare(ramps, tmp_path, vehicles_per_hour=2000, duration_s=30, seeds=1000, progress=False)
+    lw.compare(ramps, tmp_path, models="mcdm", duration_s=5, seeds=1, progress=False)
 
 
 def test_ctrl_c_ends_a_study(ramps: Path, tmp_path: Path) -> None:

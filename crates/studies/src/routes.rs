@@ -2,7 +2,7 @@
 
 use laneweave_maps::{By, Map, NodeIndex, Route, Sense, routes};
 use laneweave_network::LaneletIndex;
-use laneweave_scenario::Fault;
+use laneweave_scenario::{Fault, FaultKind};
 use serde::Serialize;
 
 /// A way: its lanelets in order. Of lanelets between which lanes are changed only the last counts as driven.
@@ -57,7 +57,8 @@ fn find(map: &Map, name: &str, id: i64) -> Result<Vec<NodeIndex>, Fault> {
     nodes.ok_or_else(|| {
         let nearest = lanelets.iter().map(|it| it.id).min_by_key(|it| it.abs_diff(id)).unwrap_or_default();
         let remedy = format!("choose one of its {} lanelets; the nearest id is {nearest}", lanelets.len());
-        Fault::new(name, format!("this map has no lanelet {id} for vehicles"), remedy)
+        let fault = Fault::new(name, format!("this map has no lanelet {id} for vehicles"), remedy);
+        fault.of_kind(FaultKind::NotFound)
     })
 }
 

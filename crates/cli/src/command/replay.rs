@@ -140,7 +140,7 @@ impl ReplayArguments {
             ("map_options.origin", "--origin"),
             ("map_options.max_size_mb", "--max-map-size"),
         ];
-        options.iter().for_each(|(key, option)| origin.replaced(key, option));
+        options.iter().for_each(|(key, option)| origin.replaced(*key, *option));
         let (mut scenario, notes) = scenario(map, replay)?;
         notes.iter().for_each(|it| complain(format_args!("note: {it}")));
         scenario.map_options = MapOptions { joins_ends: true, ..self.options.options() };

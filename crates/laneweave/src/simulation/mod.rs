@@ -215,6 +215,11 @@ impl Simulation {
         [self.prepared.conditions.warmup_steps, self.prepared.conditions.steps]
     }
 
+    /// Whether it is at its start, as its scenario says: no step was made, and nobody has given a command.
+    pub fn is_as_it_began(&self) -> bool {
+        self.clock().step == 0 && !self.is_commanded && !self.is_changed
+    }
+
     /// The present time [s].
     pub fn time_s(&self) -> f64 {
         self.world().clock().time()

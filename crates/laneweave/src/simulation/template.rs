@@ -93,7 +93,7 @@ impl Simulation {
     /// # Errors
     /// If it has made a step, or was changed.
     pub fn into_template(self) -> Result<Template, Fault> {
-        if self.clock().step > 0 || self.is_commanded || self.is_changed {
+        if !self.is_as_it_began() {
             let what = "this simulation has begun";
             let remedy = "make the template of one that is at its start";
             return Err(Fault::new("template", what, remedy).of_kind(FaultKind::State));

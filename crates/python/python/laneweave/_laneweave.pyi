@@ -81,6 +81,9 @@ class Simulation:
     def __len__(self) -> int:
         """Number of vehicles on the road."""
 
+    def __bool__(self) -> bool:
+        """True, also while nobody is on the road."""
+
     def vehicles(self) -> list[dict[str, Any]]:
         """All vehicles on the road, in the order of their ids, with the names of the table trajectories."""
 
@@ -167,10 +170,10 @@ class Simulation:
     def branch(self) -> Simulation:
         """Another simulation in the same state, which goes on by itself."""
 
-    def png(self, camera: str | tuple[float, float, float] | int, size: tuple[int, int]) -> bytes:
+    def _png(self, camera: str | tuple[float, float, float] | int, size: tuple[int, int]) -> bytes:
         """A picture of the traffic as it is now; see laneweave.picture."""
 
-    def view(self, saved: Path, port: int) -> View:
+    def _view(self, saved: Path, port: int) -> View:
         """The page in the browser with a branch of it; see laneweave.view."""
 
     def close(self) -> None:
@@ -185,7 +188,8 @@ class Template:
 
     def __new__(cls, source: str | PathLike[str] | Map, **keys: Any) -> Self: ...
     def spawn(self, seed: int) -> Simulation:
-        """A simulation at its start, with this seed of all random numbers."""
+        """A simulation at its start, with this seed of all random numbers. Its drivers are those of the template: of the
+        seed, or the drivers_seed, with which that was made."""
 
     @property
     def scenario(self) -> dict[str, Any]:
@@ -205,6 +209,10 @@ class Fleet:
         """Lets one of the simulations begin anew with this seed."""
 
     @property
+    def lanelets(self) -> list[int]:
+        """The ids of all lanelets: the column `lanelet_index` has places in this list."""
+
+    @property
     def state_hashes(self) -> list[int]:
         """The hashes of the traffic of all simulations."""
 
@@ -217,13 +225,13 @@ class Fleet:
         self,
         counts: npt.NDArray[np.uint32],
         vehicle: npt.NDArray[np.uint32],
-        lanelet: npt.NDArray[np.uint32],
+        lanelet_index: npt.NDArray[np.uint32],
         position_m: npt.NDArray[np.float64],
         speed_mps: npt.NDArray[np.float64],
         acceleration_mps2: npt.NDArray[np.float32],
     ) -> int:
         """Fills the arrays with the vehicles of all simulations, one simulation after the other, and `counts` with how
-        many each has. Returns how many there are."""
+        many each has. `lanelet_index` gets places in `lanelets`. Returns how many there are."""
 
     def sight(self, vehicles: npt.NDArray[np.uint32], sight: npt.NDArray[np.float32]) -> None:
         """Fills `sight`, of the shape (simulations, 1 + nearest, len(SIGHT_COLUMNS)), with what the vehicle of each
@@ -283,9 +291,8 @@ class View:
 
     @property
     def url(self) -> str: ...
-    @property
     def doorway(self) -> Path:
-        """A file that leads a browser to the page, and that only you can read."""
+        """A file that leads a browser to the page, and that only you can read; it is there until the view is closed."""
 
     @property
     def is_closed(self) -> bool: ...

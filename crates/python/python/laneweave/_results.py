@@ -6,7 +6,7 @@ import html
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from os import PathLike
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
@@ -37,11 +37,12 @@ class Results:
         """The names of all tables."""
         return sorted(it.stem for it in self.folder.iterdir() if it.suffix in (".parquet", ".csv"))
 
-    def table(self, name: str) -> Any:
+    def table(self, name: str, library: str | None = None) -> Any:
         """A table as a pandas data frame, or as one of polars or an Arrow table if pandas is not there.
 
         Args:
             name: Its name, such as ``"trajectories"``, ``"trips"`` or ``"lane_changes"``.
+            library: What reads it: ``"pandas"``, ``"polars"`` or ``"pyarrow"``; by default the first that is there.
 
         Raises:
             KeyError: There is no such table.
@@ -51,7 +52,7 @@ class Results:
         path = next((it for it in paths if it.exists()), None)
         if path is None:
             raise KeyError(f"there is no table {name!r}; choose one of {', '.join(self.tables)}")
-        return read_table(path)
+        return read_table(path, library)
 
     def __repr__(self) -> str:
         return f"<laneweave.Results in {self.folder}>"
@@ -63,9 +64,14 @@ class Results:
         return f"<table>{rows}</table>{figures}"
 
 
-def read_table(path: Path) -> Any:
-    """A table as a pandas data frame, or as one of polars or an Arrow table if pandas is not there."""
-    for read in (_by_pandas, _by_polars, _by_arrow):
+def read_table(path: Path, library: str | None = None) -> Any:
+    """A table as a data frame of ``library``, or of the first that is there: pandas, polars, pyarrow."""
+    readers = {"pandas": _by_pandas, "polars": _by_polars, "pyarrow": _by_arrow}
+    if library is not None:
+        if library not in readers:
+            raise ValueError(f"there is no library {library!r}; choose one of {', '.join(readers)}")
+        return readers[library](path)
+    for read in readers.values():
         try:
             return read(path)
         except ImportError:
@@ -76,7 +82,10 @@ def read_table(path: Path) -> Any:
 def _by_pandas(path: Path) -> Any:
     import pandas
 
-    return pandas.read_parquet(path) if path.suffix == ".parquet" else pandas.read_csv(path, keep_default_na=False, na_values=[""])
+    if path.suffix == ".parquet":
+        return pandas.read_parquet(path)
+    # The model "null" is a name.
+    return pandas.read_csv(path, keep_default_na=False, na_values=[""])
 
 
 def _by_polars(path: Path) -> Any:
@@ -110,15 +119,32 @@ def run(
         LaneweaveError: The file, its map or a style cannot be used, or a key is wrong. Nothing is written then.
         KeyboardInterrupt: Ctrl-C.
     """
-    folder = folder_for(out)
-    with progress_bar(progress) as show:
+    with results_folder(out) as folder, progress_bar(progress) as show:
         summary, files, warnings = _laneweave.run(source, folder, show, **keys)
     return Results(folder, summary, files, warnings)
 
 
-def folder_for(out: str | PathLike[str] | None) -> Path:
-    """The folder ``out``; a new temporary one if it is left out."""
-    return Path(tempfile.mkdtemp(prefix="laneweave-") if out is None else out)
+@contextmanager
+def results_folder(out: str | PathLike[str] | None) -> Iterator[Path]:
+    """The folder ``out``; a new temporary one if it is left out, which goes if nothing is written into it."""
+    if out is not None:
+        yield Path(out)
+        return
+    folder = Path(tempfile.mkdtemp(prefix="laneweave-"))
+    try:
+        yield folder
+    finally:
+        if not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def map_file(
+    map: str | PathLike[str] | Map | None, options: dict[str, Any] | None
+) -> tuple[str | None, dict[str, Any]]:
+    """The file of a map, and how it is read: as a ``Map`` was, unless ``options`` say it otherwise."""
+    if isinstance(map, Map):
+        return fspath(map.path), {**map.options, **(options or {})}
+    return None if map is None else fspath(map), options or {}
 
 
 @contextmanager

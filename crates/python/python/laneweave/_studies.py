@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 from . import _laneweave
 from ._laneweave import Map
-from ._results import Results, folder_for, progress_bar, read_table
+from ._results import Results, map_file, progress_bar, read_table, results_folder
 from ._style import Style
 
 File: TypeAlias = str | PathLike[str]
@@ -27,13 +27,13 @@ class Comparison:
     def __init__(self, text: str, report: Path, runs: Path) -> None:
         self.text, self.report, self._runs = text, report, runs
 
-    def runs(self) -> Any:
-        """A row for each run, as a data frame of pandas or polars, or as an Arrow table.
+    def runs(self, library: str | None = None) -> Any:
+        """A row for each run, as ``Results.table`` gives tables.
 
         Raises:
             ImportError: Nothing is installed that reads it.
         """
-        return read_table(self._runs)
+        return read_table(self._runs, library)
 
     def __repr__(self) -> str:
         return self.text
@@ -46,7 +46,7 @@ def compare(
     sources: File | Map | Sequence[File | Map],
     out: File | None = None,
     *,
-    models: Sequence[str] | None = None,
+    models: str | Sequence[str] | None = None,
     seeds: int = 10,
     progress: bool = True,
     **keys: Any,
@@ -63,12 +63,11 @@ def compare(
 
     Raises:
         LaneweaveError: A file or a key cannot be used.
-        KeyboardInterrupt: Ctrl-C.
+        KeyboardInterrupt: Ctrl-C. It ends after the runs that have begun.
     """
     all_sources: list[File | Map] = [sources] if isinstance(sources, (str, PathLike, Map)) else list(sources)
-    names = None if models is None else list(models)
-    with progress_bar(progress) as show:
-        text, (report, runs) = _laneweave.compare_models(all_sources, folder_for(out), names, seeds, show, **keys)
+    with results_folder(out) as folder, progress_bar(progress) as show:
+        text, (report, runs) = _laneweave.compare_models(all_sources, folder, _names(models), seeds, show, **keys)
     return Comparison(text, report, runs)
 
 
@@ -102,7 +101,7 @@ class Fit:
 
 def fit(
     recordings: File | Sequence[File],
-    map: File | None = None,
+    map: File | Map | None = None,
     out: File | None = None,
     *,
     columns: File | None = None,
@@ -116,8 +115,8 @@ def fit(
     position_error_m: float | None = None,
     judge: int | None = None,
     seed: int = 1,
+    map_options: dict[str, Any] | None = None,
     progress: bool = True,
-    **map_options: Any,
 ) -> Fit:
     """Fits driving styles to recordings, with their uncertainty.
 
@@ -138,17 +137,18 @@ def fit(
             corrected; by default they are not.
         judge: So many simulations judge the fit on the last third of the recorded time; by default none.
         seed: Seed of all random numbers.
+        map_options: How the map is read, with the keys of a scenario's table ``map_options``.
         progress: Whether a bar shows how far ``judge`` is, if ``tqdm`` is installed.
-        map_options: How the map is read: ``origin``, ``law``, ``driving_side``, ``max_size_mb``.
 
     Raises:
         LaneweaveError: A file or a value cannot be used, or the recordings are too few.
-        KeyboardInterrupt: Ctrl-C. Nothing is written then.
+        KeyboardInterrupt: Ctrl-C. Nothing is written then; what was begun is computed to its end in the background.
     """
+    file, options = map_file(map, map_options)
     keys: dict[str, Any] = {
-        "map": map and fspath(map),
+        "map": file,
         "columns": columns and fspath(columns),
-        "map_options": map_options,
+        "map_options": options,
         "classes": classes,
         "reading": reading,
         "by_paper": by_paper,
@@ -160,8 +160,7 @@ def fit(
         "judge": judge,
         "seed": seed,
     }
-    folder = folder_for(out)
-    with progress_bar(progress and judge is not None) as show:
+    with results_folder(out) as folder, progress_bar(progress and judge is not None) as show:
         return Fit(folder, **_laneweave.fit_styles(_files(recordings), folder, keys, show))
 
 
@@ -190,7 +189,7 @@ class Replay(Results):
 
 def replay(
     recordings: File | Sequence[File],
-    map: File | None = None,
+    map: File | Map | None = None,
     out: File | None = None,
     *,
     columns: File | None = None,
@@ -198,7 +197,7 @@ def replay(
     reactive_ids: Sequence[int] = (),
     reactive_from_s: float = 0.0,
     rollouts: int = 4,
-    models: Sequence[str] | None = None,
+    models: str | Sequence[str] | None = None,
     progress: bool = True,
     **keys: Any,
 ) -> Replay:
@@ -221,18 +220,24 @@ def replay(
         LaneweaveError: A file or a value cannot be used.
         KeyboardInterrupt: Ctrl-C.
     """
+    file, options = map_file(map, keys.pop("map_options", None))
+    if options:
+        keys["map_options"] = options
     how: dict[str, Any] = {
-        "map": map and fspath(map),
+        "map": file,
         "columns": columns and fspath(columns),
         "reactive_share": reactive_share,
         "reactive_ids": list(reactive_ids),
         "reactive_from_s": reactive_from_s,
         "rollouts": rollouts,
-        "models": None if models is None else list(models),
+        "models": _names(models),
     }
-    folder = folder_for(out)
-    with progress_bar(progress) as show:
+    with results_folder(out) as folder, progress_bar(progress) as show:
         return Replay(folder, **_laneweave.replay_recordings(_files(recordings), folder, how, keys, show))
+
+
+def _names(models: str | Sequence[str] | None) -> list[str] | None:
+    return [models] if isinstance(models, str) else None if models is None else list(models)
 
 
 def _files(files: File | Sequence[File]) -> list[Path]:

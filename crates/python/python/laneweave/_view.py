@@ -13,7 +13,7 @@ from typing import Any, Self
 
 from . import _laneweave
 from ._laneweave import Map, Simulation
-from ._results import Results
+from ._results import Results, map_file
 
 
 class Picture(bytes):
@@ -44,9 +44,10 @@ def picture(
         size: Width and height in pixels.
 
     Raises:
+        NotFoundError: The vehicle is not on the road.
         LaneweaveError: There is no such camera or size.
     """
-    return Picture(simulation.png(camera, size))
+    return Picture(simulation._png(camera, size))
 
 
 class View:
@@ -92,42 +93,52 @@ class View:
 def view(
     shown: Simulation | Results | Map | str | PathLike[str] | Sequence[str | PathLike[str]],
     *,
-    map: str | PathLike[str] | None = None,
+    map: str | PathLike[str] | Map | None = None,
     columns: str | PathLike[str] | None = None,
+    map_options: dict[str, Any] | None = None,
     browser: bool | None = None,
     saved: str | PathLike[str] = "saved",
     port: int = 0,
-    **map_options: Any,
 ) -> View:
-    """Shows traffic in the browser, in 3-D, with the reasons of its drivers.
+    """Shows traffic in the browser of this machine, in 3-D, with the reasons of its drivers.
 
     Args:
         shown: A simulation, of which a copy goes on there from its present state; the results of a run, or their
             folder; a scenario (.toml) or a map, which is simulated; or recordings, with ``map``.
         map: The map of the recordings.
         columns: A TOML file that says what the columns of the recordings hold.
+        map_options: How a map is read, with the keys of a scenario's table ``map_options``.
         browser: Whether a browser is opened; by default it is, except in a notebook, where the page is shown in place.
-        saved: The folder in which scenarios are saved with what was done by hand.
+        saved: The folder in which scenarios are saved with what was done by hand. Traffic that a program drove before
+            it was shown cannot be saved there: its scenario does not lead to it.
         port: The port of the page; 0: any free one.
-        map_options: How a map is read: ``origin``, ``law``, ``driving_side``, ``max_size_mb``.
 
     Raises:
+        TypeError: An argument has no meaning for what is shown.
         LaneweaveError: A file cannot be used, or the port is taken.
     """
+    if map is None and columns is not None:
+        raise TypeError("columns= says what the columns of recordings hold; name their map with map=")
     if isinstance(shown, Simulation):
-        made = shown.view(Path(saved), port)
+        if map is not None or map_options is not None:
+            raise TypeError("a simulation has its map; leave map= and map_options= out")
+        made = shown._view(Path(saved), port)
     else:
+        map, options = map_file(map, map_options)
         if isinstance(shown, Results):
             files = [shown.folder]
         elif isinstance(shown, Map):
-            files, map_options = [shown.path], {**shown.options, **map_options}
+            file, options = map_file(shown, map_options)
+            files = [Path(file or "")]
         elif isinstance(shown, (str, PathLike)):
             files = [Path(shown)]
         else:
             files = [Path(it) for it in shown]
-        made = _laneweave.view_files(files, map, columns, map_options, Path(saved), port)
+        if not files:
+            raise TypeError("nothing is shown; name a file")
+        made = _laneweave.view_files(files, map, columns, options, Path(saved), port)
     if (not _in_notebook()) if browser is None else browser:
-        webbrowser.open(made.doorway.as_uri())
+        webbrowser.open(made.doorway().as_uri())
     return View(made)
 
 

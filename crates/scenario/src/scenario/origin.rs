@@ -21,7 +21,7 @@ pub struct Origin {
     /// The map's text, if it is built in.
     pub(super) map: Option<&'static str>,
     /// Options by the key whose value they replace.
-    options: BTreeMap<&'static str, &'static str>,
+    options: BTreeMap<String, String>,
     /// Style files in memory, by the names that a scenario gives them.
     styles: BTreeMap<String, String>,
 }
@@ -91,19 +91,19 @@ impl Origin {
     }
 
     /// Records that `option` has replaced the value of `key`.
-    pub fn replaced(&mut self, key: &'static str, option: &'static str) {
-        self.options.insert(key, option);
+    pub fn replaced(&mut self, key: impl Into<String>, option: impl Into<String>) {
+        self.options.insert(key.into(), option.into());
     }
 
     /// The keys with replaced values, each with its option.
-    pub fn options(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
-        self.options.iter().map(|(key, option)| (*key, *option))
+    pub fn options(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.options.iter().map(|(key, option)| (key.as_str(), option.as_str()))
     }
 
     /// The place of the key at `path`: an option, a place in the scenario file, or else the key itself.
     pub fn place(&self, path: &[&str]) -> String {
         let option = (1..=path.len()).find_map(|n| self.options.get(path[..n].join(".").as_str()));
-        option.map(|it| (*it).into()).or_else(|| self.in_file(path)).unwrap_or(path.join("."))
+        option.cloned().or_else(|| self.in_file(path)).unwrap_or(path.join("."))
     }
 
     /// The place of the key at `path` in the scenario file, if there is one.

@@ -43,33 +43,39 @@ impl World {
             let walk = network.chain(chain).centre.walk();
             let mut bumpers = Bumpers { front: walk.clone(), rear: walk };
             let entries = lane.motions().iter().zip(lane.drivers()).zip(lane.lane_change_states());
-            for (index, ((motion, driver), lane_change)) in entries.enumerate() {
-                if driver.is_shadow {
-                    continue;
-                }
+            let main = entries.enumerate().filter(|(_, ((_, driver), _))| !driver.is_shadow);
+            let places = rows.poses(main.clone().count());
+            for ((index, ((motion, driver), lane_change)), place) in main.zip(places) {
                 let there = if keeps_lane(motion, driver, lane_change) {
                     bumpers.pose([motion.x, motion.rear()])
                 } else {
                     let body = self.traffic.externals().body(motion.id).filter(|_| driver.is_external);
                     body.map_or_else(|| pose(&scene, Spot { chain, index }), |it| it.pose)
                 };
-                rows.fill_pose(there);
+                fill(place, &there);
             }
         }
-        let off_road = self.traffic.externals().all().iter().filter(|it| it.off_road().is_some());
-        let bodies = off_road.filter_map(|it| self.traffic.externals().body(it.id));
-        bodies.for_each(|it| rows.fill_pose(it.pose));
+        let externals = self.traffic.externals();
+        let off_road = externals.all().iter().filter(|it| it.off_road().is_some());
+        let bodies = off_road.filter_map(|it| externals.body(it.id));
+        bodies.for_each(|it| rows.poses(1).for_each(|place| fill(place, &it.pose)));
     }
 }
 
-impl Rows<'_> {
+/// The places of a pose in the columns: to the east, to the north, its height and its heading.
+type Places<'a> = [&'a mut f64; 4];
+
+#[inline]
+fn fill([x, y, z, heading]: Places, pose: &Pose) {
+    (*x, *y, *z, *heading) = (pose.at.x, pose.at.y, pose.at.z, pose.heading);
+}
+
+impl<'a> Rows<'a> {
+    /// The places of the next `count` poses.
     #[inline]
-    fn fill_pose(&mut self, Pose { at, heading }: Pose) {
-        let columns = [&mut self.x_m, &mut self.y_m, &mut self.z_m, &mut self.heading_rad];
-        for (column, value) in columns.into_iter().zip([at.x, at.y, at.z, heading]) {
-            if let [place] = take(column, 1) {
-                *place = value;
-            }
-        }
+    fn poses(&mut self, count: usize) -> impl Iterator<Item = Places<'a>> + use<'a> {
+        let across = take(&mut self.x_m, count).iter_mut().zip(take(&mut self.y_m, count));
+        let others = take(&mut self.z_m, count).iter_mut().zip(take(&mut self.heading_rad, count));
+        across.zip(others).map(|((x, y), (z, heading))| [x, y, z, heading])
     }
 }

@@ -4,11 +4,13 @@ mod files;
 mod outcome;
 mod page;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use laneweave::Simulation;
 use laneweave_results::About;
-use laneweave_scenario::Fault;
 use laneweave_scenario::scenario::{Origin, Scenario};
 use laneweave_scenario::style::Model;
+use laneweave_scenario::{Fault, FaultKind};
 use laneweave_study::{EdieRow, Estimate, mean};
 
 use crate::parallel::in_parallel;
@@ -62,23 +64,35 @@ pub struct Comparison {
 }
 
 /// Runs `scenario` with each of the `models`, repeated names only once, and each of the `seeds`, with as many
-/// parallel runs as `threads`.
+/// parallel runs as `threads`. `goes_on` is told the share of the runs that has ended, and whether others begin is what
+/// it says.
 ///
 /// # Errors
-/// If the scenario cannot run.
+/// If the scenario cannot run, or `goes_on` says no.
 pub fn compare(
     scenario: &Scenario,
     origin: &Origin,
     models: &[Model],
     seeds: &[u64],
     threads: usize,
+    goes_on: impl Fn(f64) -> bool + Sync,
 ) -> Result<Comparison, Fault> {
     let about = Simulation::from_scenario(scenario, origin)?.about();
     let is_first = |(place, model): &(usize, &Model)| !models[..*place].contains(model);
     let models: Vec<Model> = models.iter().enumerate().filter(is_first).map(|(_, model)| *model).collect();
     let jobs: Vec<(Model, u64)> =
         models.iter().flat_map(|model| seeds.iter().map(|seed| (*model, *seed))).collect();
-    let trials = in_parallel(&jobs, threads, |(model, seed)| trial(scenario, origin, *model, *seed))?;
+    let ended = AtomicUsize::new(0);
+    let trials = in_parallel(&jobs, threads, |(model, seed)| {
+        if !goes_on(ended.load(Ordering::Relaxed) as f64 / jobs.len() as f64) {
+            return Err(
+                Fault::new("compare", "it was interrupted", "compare again").of_kind(FaultKind::State)
+            );
+        }
+        let trial = trial(scenario, origin, *model, *seed);
+        ended.fetch_add(1, Ordering::Relaxed);
+        trial
+    })?;
     Ok(Comparison { about, models, trials })
 }
 

@@ -136,6 +136,20 @@ impl Request {
     }
 
     fn check(&self) -> Result<(), Fault> {
+        let within = |option: &str, number: usize, least: usize, most: usize| {
+            if (least..=most).contains(&number) {
+                return Ok(());
+            }
+            Err(Fault::new(option, format!("{number} is out of range"), format!("choose {least} to {most}")))
+        };
+        if let Classes::Exactly(count) = self.classes {
+            within("--classes", count, 1, MOST_CLASSES)?;
+        }
+        within("--draws", self.draws as usize, 0, 10_000)?;
+        within("--repetitions", self.repetitions as usize, 1, 100)?;
+        if self.recordings.is_empty() {
+            return Err(Fault::new("recordings", "there is none", "name a file"));
+        }
         /// Longest time between begin and crossing [s].
         const LONGEST: f64 = 10.0;
         /// Largest error [m]: beyond it lanes are not told apart.

@@ -39,8 +39,8 @@ pub struct Live {
     has_news: bool,
     /// The unchanged twin and its begin [s], if somebody wants one.
     twin: Option<(f64, Box<Driven>)>,
-    /// Where scenarios are saved.
-    dir: PathBuf,
+    /// Where scenarios are saved; nowhere if the scenario alone does not lead to the begin of the traffic.
+    dir: Option<PathBuf>,
 }
 
 impl Live {
@@ -49,15 +49,17 @@ impl Live {
     /// # Errors
     /// If something is missing, not readable, or invalid.
     pub fn new(scenario: &Scenario, origin: &Origin, dir: PathBuf) -> Result<Live, Fault> {
-        Ok(Live::driven(Driven::new(scenario, origin)?, dir))
+        Ok(Live::driven(Driven::new(scenario, origin)?, Some(dir)))
     }
 
-    /// A simulation that goes on from where it is, on a map that has this beside its network.
+    /// A simulation that goes on from where it is, on a map that has this beside its network. Only if it is at its start
+    /// can be saved what is done by hand: its scenario does not lead to where it is otherwise.
     pub fn of(simulation: Simulation, around: Surroundings, dir: PathBuf) -> Live {
+        let dir = simulation.is_as_it_began().then_some(dir);
         Live::driven(Driven::of(simulation, around), dir)
     }
 
-    fn driven(driven: Driven, dir: PathBuf) -> Live {
+    fn driven(driven: Driven, dir: Option<PathBuf>) -> Live {
         Live {
             driven,
             waits: false,
@@ -271,7 +273,11 @@ impl Source for Live {
 
     fn save(&self) -> Result<Saved, Fault> {
         let simulation = &self.driven.simulation;
-        save(&self.dir, (simulation.scenario(), simulation.origin()), &self.given, simulation.time_s())
+        let dir = self.dir.as_ref().ok_or_else(|| {
+            let what = "a program drove this traffic before it was shown, so its scenario does not lead here";
+            Fault::new("save", what, "save its state in the program, or show it from its start")
+        })?;
+        save(dir, (simulation.scenario(), simulation.origin()), &self.given, simulation.time_s())
     }
 
     fn state_hash(&self) -> u64 {

@@ -45,6 +45,10 @@ impl Shown {
             }
         };
         match FileKind::of(path) {
+            FileKind::Folder if self.options != MapOptions::default() => {
+                let what = "how its map is read is kept with a run, and cannot be changed";
+                Err(Fault::new(path.display(), what, "leave the options of the map out"))
+            }
             FileKind::Folder => run(path),
             kind if kind.is_table() => {
                 Err(Fault::new(path.display(), "a recording needs the map of its location", "add --map MAP"))
@@ -75,11 +79,10 @@ impl Shown {
     /// A simulation that runs now.
     fn simulated(&self, path: &Path, saved: &Path) -> Result<Box<dyn Source>, Fault> {
         let (mut scenario, origin) = Origin::open(path)?;
-        if !matches!(FileKind::by_name(path), FileKind::Toml) {
-            scenario.map_options = self.options.clone();
-        } else if self.options.driving_side.is_some() {
-            scenario.map_options.driving_side = self.options.driving_side;
-        }
+        scenario.map_options = match FileKind::by_name(path) {
+            FileKind::Toml => over(&scenario.map_options, &self.options),
+            _ => self.options.clone(),
+        };
         Ok(Box::new(Live::new(&scenario, &origin, saved.to_owned())?))
     }
 
@@ -93,6 +96,18 @@ impl Shown {
             }
             None => self.simulated(path, saved),
         }
+    }
+}
+
+/// The `options` over those of a scenario.
+fn over(own: &MapOptions, options: &MapOptions) -> MapOptions {
+    let usual = MapOptions::default();
+    MapOptions {
+        origin: options.origin.or(own.origin),
+        law: if options.law == usual.law { own.law } else { options.law },
+        driving_side: options.driving_side.or(own.driving_side),
+        joins_ends: options.joins_ends || own.joins_ends,
+        max_size_mb: options.max_size_mb.or(own.max_size_mb),
     }
 }
 
