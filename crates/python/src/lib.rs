@@ -3,13 +3,14 @@
 //! * `errors.rs` faults become exceptions, and so do panics
 //! * `keys.rs` keyword arguments become a scenario
 //! * `simulation.rs`, `template.rs` and `fleet.rs` the classes
-//! * `control.rs` how vehicles are driven
+//! * `columns.rs` vehicles as arrays, `control.rs` how vehicles are driven
 //! * `map.rs`, `style.rs` and `view.rs` maps, styles, and the page in the browser
 //! * `task.rs` long work, which shows its progress and can be interrupted
 //! * `run.rs` and `studies.rs` runs, comparisons, fits and replays, with all their files
 //! * `command.rs` the command `laneweave`
 //! * `values.rs` values between the two languages
 
+mod columns;
 mod command;
 mod control;
 mod errors;

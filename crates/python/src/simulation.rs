@@ -14,7 +14,7 @@ use crate::control::control;
 use crate::errors::{Failure, detached, locked, refused};
 use crate::keys::Given;
 use crate::template::Template;
-use crate::values::{Signals, array, named, to_python};
+use crate::values::{Signals, named, to_python};
 use crate::view::{GivenCamera, View, live};
 
 /// A simulation: traffic on a map, which a program steps through, asks, and changes.
@@ -199,19 +199,7 @@ impl Simulation {
             let ids: Vec<i64> = columns.lanelet.iter().map(|it| lanelets[*it as usize].id).collect();
             (columns, ids)
         })?;
-        let dict = PyDict::new(py);
-        dict.set_item("vehicle", array(py, columns.id))?;
-        dict.set_item("lanelet", array(py, lanelets))?;
-        dict.set_item("position_m", array(py, columns.position_m))?;
-        dict.set_item("speed_mps", array(py, columns.speed_mps))?;
-        dict.set_item("acceleration_mps2", array(py, columns.acceleration_mps2))?;
-        if poses {
-            dict.set_item("x_m", array(py, columns.x_m))?;
-            dict.set_item("y_m", array(py, columns.y_m))?;
-            dict.set_item("z_m", array(py, columns.z_m))?;
-            dict.set_item("heading_rad", array(py, columns.heading_rad))?;
-        }
-        Ok(dict)
+        crate::columns::dict(py, columns, lanelets, poses)
     }
 
     /// Puts a vehicle on the road, at once, and returns its id. Its own driver drives it.
