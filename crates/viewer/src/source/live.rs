@@ -52,8 +52,8 @@ impl Live {
         Ok(Live::driven(Driven::new(scenario, origin)?, Some(dir)))
     }
 
-    /// A simulation that goes on from where it is, on a map that has this beside its network. Only if it is at its start
-    /// can be saved what is done by hand: its scenario does not lead to where it is otherwise.
+    /// A simulation that goes on from where it is, on a map that has this beside its network. What is done by hand can
+    /// be saved only if it is at its start: otherwise its scenario does not lead to where it is.
     pub fn of(simulation: Simulation, around: Surroundings, dir: PathBuf) -> Live {
         let dir = simulation.is_as_it_began().then_some(dir);
         Live::driven(Driven::of(simulation, around), dir)
