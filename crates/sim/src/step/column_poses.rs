@@ -42,10 +42,16 @@ impl World {
             let chain = ChainIndex(number);
             let walk = network.chain(chain).centre.walk();
             let mut bumpers = Bumpers { front: walk.clone(), rear: walk };
-            let entries = lane.motions().iter().zip(lane.drivers()).zip(lane.lane_change_states());
-            let main = entries.enumerate().filter(|(_, ((_, driver), _))| !driver.is_shadow);
-            let places = rows.poses(main.clone().count());
-            for ((index, ((motion, driver), lane_change)), place) in main.zip(places) {
+            let (motions, drivers, states) = (lane.motions(), lane.drivers(), lane.lane_change_states());
+            let count = drivers.iter().filter(|it| !it.is_shadow).count();
+            let mut places = rows.poses(count);
+            // A loop over indices: adapters of the three lists together are not inlined.
+            for index in 0..drivers.len() {
+                let (motion, driver, lane_change) = (&motions[index], &drivers[index], &states[index]);
+                if driver.is_shadow {
+                    continue;
+                }
+                let Some(place) = places.next() else { break };
                 let there = if keeps_lane(motion, driver, lane_change) {
                     bumpers.pose([motion.x, motion.rear()])
                 } else {
