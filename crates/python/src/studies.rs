@@ -1,7 +1,7 @@
 //! Studies: models compared, styles fitted, recordings replayed.
 
 use std::num::NonZero;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use laneweave::maps::FileKind;
@@ -56,7 +56,7 @@ pub(crate) fn compare_models(
 
 fn compared(
     asked: Vec<Asked>,
-    out: &std::path::Path,
+    out: &Path,
     names: Option<Vec<String>>,
     seeds: u64,
     task: &Task,
@@ -269,9 +269,10 @@ fn replayed(
         reactive_from_s: how.reactive_from_s,
     };
     let (mut scenario, notes) = replay::scenario(map, replay)?;
-    scenario.map_options.joins_ends = true;
     scenario.output.dir = out;
-    let (scenario, origin) = keys.put(&scenario, Origin::default())?;
+    let (mut scenario, origin) = keys.put(&scenario, Origin::default())?;
+    // A map that was read brings all its options along; a replay joins ends, as the command does.
+    scenario.map_options.joins_ends = true;
     let show = |it: &Simulation| task.has_done(share(it));
     let done = replay::replay(&scenario, &origin, &asked, COMMAND, show, || task.is_stopped())?;
     let Some((report, _)) = done.write(&scenario.output.dir, &recordings, COMMAND)? else {
