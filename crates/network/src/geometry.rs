@@ -173,9 +173,9 @@ impl Polyline {
         point
     }
 
-    /// A walk along the line: for many stations one after the other, each near the one before.
-    pub fn walk(&self) -> LineWalk<'_> {
-        LineWalk { line: self, after: 1, heading: None }
+    /// A walk along the line from `station` [m]: for many stations one after the other, each near the one before.
+    pub fn walk(&self, station: f64) -> LineWalk<'_> {
+        LineWalk { line: self, after: self.segment(station).0 + 1, heading: None }
     }
 
     /// Station of the first place where the line through `points` crosses this one, seen from above.
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn a_walk_tells_the_direction_of_a_segment_if_both_stations_lie_on_it() {
         let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)]);
-        let mut walk = corner.walk();
+        let mut walk = corner.walk(0.0);
         for [front, rear] in [[4.0, 1.0], [9.0, -2.0], [10.0, 9.0], [14.0, 9.9], [14.0, 11.0], [19.0, 12.0]] {
             let found = walk.straight([front, rear]);
             let is_bent = front >= 10.0 && rear < 10.0;
@@ -299,7 +299,7 @@ mod tests {
     #[test]
     fn a_walk_finds_the_points_of_its_line_forwards_backwards_and_beyond_the_ends() {
         let corner = line(&[(0.0, 0.0), (10.0, 0.0), (10.0, 5.0), (3.0, 9.0)]);
-        let mut walk = corner.walk();
+        let mut walk = corner.walk(12.0);
         for station in [-3.0, 0.0, 9.5, 10.0, 10.5, 40.0, 15.0, 14.0, 3.0, 22.0, -1.0] {
             assert_eq!(walk.at(station), corner.at(station), "{station} m");
         }

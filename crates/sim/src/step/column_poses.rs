@@ -1,11 +1,13 @@
-//! The poses of all vehicles, as columns. Most vehicles keep their lane: one walk along each lane finds where they are.
+//! The poses of all vehicles, as columns: one walk along each lane finds where they are, another one along each lane
+//! beside it finds those who change lanes.
 
-use laneweave_network::{ChainIndex, LineWalk, Pose};
+use laneweave_network::{ChainIndex, LineWalk, Network, Point, Pose};
 
 use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
+use crate::state::previous_lanes::PreviousLanes;
 use crate::step::columns::{Rows, take};
 use crate::step::world::World;
-use crate::view::pose::{between, pose};
+use crate::view::pose::{between, bumpers_between, on_path, pose};
 use crate::view::scene::Spot;
 
 /// Whether a vehicle is in the middle of its lane with all of its length.
@@ -17,31 +19,58 @@ fn keeps_lane(motion: &Kinematics, driver: &DriverState, lane_change: &LaneChang
         && !driver.is_external
 }
 
-/// A walk along a lane in driving order.
-struct Bumpers<'a> {
-    front: LineWalk<'a>,
-    rear: LineWalk<'a>,
+/// Walks along a lane in driving order, and along those to which its vehicles change.
+struct Walks<'a> {
+    network: &'a Network,
+    chain: ChainIndex,
+    along: LineWalk<'a>,
+    /// Along the last two other lanes.
+    beside: [Option<(ChainIndex, LineWalk<'a>)>; 2],
 }
 
-impl Bumpers<'_> {
+impl<'a> Walks<'a> {
+    fn new(network: &'a Network, chain: ChainIndex) -> Walks<'a> {
+        Walks { network, chain, along: network.chain(chain).centre.walk(0.0), beside: [const { None }; 2] }
+    }
+
     /// The pose of a body with its bumpers at these places along the lane [m].
     #[inline]
     fn pose(&mut self, [front, rear]: [f64; 2]) -> Pose {
-        match self.front.straight([front, rear]) {
+        match self.along.straight([front, rear]) {
             Some((at, heading)) => Pose { at, heading },
-            None => between([self.front.at(front), self.rear.at(rear)]),
+            None => between([front, rear].map(|it| self.along.at(it))),
         }
+    }
+
+    /// The point at `x` along the path over `previous_lanes` onto `chain` [m].
+    #[inline]
+    fn at(&mut self, chain: ChainIndex, previous_lanes: PreviousLanes, x: f64) -> Point {
+        if x < 0.0 {
+            return on_path(self.network, chain, previous_lanes, x, 0.0);
+        }
+        if chain == self.chain {
+            return self.along.at(x);
+        }
+        let is_there = |it: &Option<(ChainIndex, LineWalk)>| it.as_ref().is_some_and(|it| it.0 == chain);
+        if !is_there(&self.beside[0]) {
+            self.beside.swap(0, 1);
+        }
+        if !is_there(&self.beside[0]) {
+            self.beside[0] = None;
+        }
+        let (_, walk) =
+            self.beside[0].get_or_insert_with(|| (chain, self.network.chain(chain).centre.walk(x)));
+        walk.at(x)
     }
 }
 
 impl World {
     /// Fills the columns of the poses, in the order of [`World::vehicles`].
     pub(super) fn fill_poses(&self, rows: &mut Rows) {
-        let (network, scene) = (self.roads.network(), self.scene());
+        let (network, scene, externals) = (self.roads.network(), self.scene(), self.traffic.externals());
         for (lane, number) in self.traffic.lanes().iter().zip(0..) {
             let chain = ChainIndex(number);
-            let walk = network.chain(chain).centre.walk();
-            let mut bumpers = Bumpers { front: walk.clone(), rear: walk };
+            let mut walks = Walks::new(network, chain);
             let (motions, drivers, states) = (lane.motions(), lane.drivers(), lane.lane_change_states());
             let count = drivers.iter().filter(|it| !it.is_shadow).count();
             let mut places = rows.poses(count);
@@ -53,15 +82,20 @@ impl World {
                 }
                 let Some(place) = places.next() else { break };
                 let there = if keeps_lane(motion, driver, lane_change) {
-                    bumpers.pose([motion.x, motion.rear()])
+                    walks.pose([motion.x, motion.rear()])
+                } else if driver.is_external
+                    && let Some(body) = externals.body(motion.id)
+                {
+                    body.pose
+                } else if let Some(counterpart) = lane_change.counterpart {
+                    let at = |chain, previous_lanes, x| walks.at(chain, previous_lanes, x);
+                    between(bumpers_between(&scene, chain, &lane.entry(index), counterpart, at))
                 } else {
-                    let body = self.traffic.externals().body(motion.id).filter(|_| driver.is_external);
-                    body.map_or_else(|| pose(&scene, Spot { chain, index }), |it| it.pose)
+                    pose(&scene, Spot { chain, index })
                 };
                 fill(place, &there);
             }
         }
-        let externals = self.traffic.externals();
         let off_road = externals.all().iter().filter(|it| it.off_road().is_some());
         let bodies = off_road.filter_map(|it| externals.body(it.id));
         bodies.for_each(|it| rows.poses(1).for_each(|place| fill(place, &it.pose)));

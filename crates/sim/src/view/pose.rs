@@ -4,7 +4,7 @@ use laneweave_models::Manner;
 use laneweave_models::lateral::Crossing;
 use laneweave_network::{ChainIndex, Network, Point, Pose, Position};
 
-use crate::state::lane::{Entry, Kinematics, LaneChangeState};
+use crate::state::lane::{Counterpart, Entry, Kinematics, LaneChangeState};
 use crate::state::previous_lanes::PreviousLanes;
 use crate::view::scene::{Scene, Spot};
 
@@ -27,17 +27,9 @@ pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let Entry { motion, lane_change, .. } = &entry;
     match lane_change.counterpart {
         Some(counterpart) => {
-            let [share_of_front, share_of_rear] = shares(scene, &entry);
-            let between = |x: f64, counterpart_x: f64, share: f64| {
-                let here = on_path(network, spot.chain, lane_change.previous_lanes, x, 0.0);
-                here.towards(
-                    &on_path(network, counterpart.chain, PreviousLanes::NONE, counterpart_x, 0.0),
-                    share,
-                )
-            };
-            let [length, counterpart_length] = lengths(motion, lane_change.progress, counterpart.stretch);
-            let (rear, counterpart_rear) = (motion.x - length, counterpart.x - counterpart_length);
-            [between(motion.x, counterpart.x, share_of_front), between(rear, counterpart_rear, share_of_rear)]
+            bumpers_between(scene, spot.chain, &entry, counterpart, |chain, previous_lanes, x| {
+                on_path(network, chain, previous_lanes, x, 0.0)
+            })
         }
         None => {
             let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
@@ -46,6 +38,28 @@ pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
             [at(motion.x, front_offset), at(motion.rear(), rear_offset)]
         }
     }
+}
+
+/// The middles of the front and rear bumpers of a vehicle between its lane on `chain` and that of its counterpart.
+///
+/// `at` gives the point at a station along the path over these previous lanes onto a chain.
+#[inline]
+pub(crate) fn bumpers_between(
+    scene: &Scene,
+    chain: ChainIndex,
+    entry: &Entry,
+    counterpart: Counterpart,
+    mut at: impl FnMut(ChainIndex, PreviousLanes, f64) -> Point,
+) -> [Point; 2] {
+    let Entry { motion, lane_change, .. } = entry;
+    let [share_of_front, share_of_rear] = shares(scene, entry);
+    let [length, counterpart_length] = lengths(motion, lane_change.progress, counterpart.stretch);
+    let (rear, counterpart_rear) = (motion.x - length, counterpart.x - counterpart_length);
+    let mut between = |x: f64, counterpart_x: f64, share: f64| {
+        let here = at(chain, lane_change.previous_lanes, x);
+        here.towards(&at(counterpart.chain, PreviousLanes::NONE, counterpart_x), share)
+    };
+    [between(motion.x, counterpart.x, share_of_front), between(rear, counterpart_rear, share_of_rear)]
 }
 
 /// The middles of the front and rear bumpers of a vehicle that keeps its lane on `chain`, and came there over
@@ -117,7 +131,7 @@ fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
 }
 
 /// The point at `x` along the path over `previous_lanes` onto `chain`, `offset` to the left [m].
-fn on_path(
+pub(crate) fn on_path(
     network: &Network,
     chain: ChainIndex,
     previous_lanes: PreviousLanes,
