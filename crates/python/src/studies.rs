@@ -5,11 +5,9 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 
 use laneweave::maps::FileKind;
-use laneweave::models::Reading;
-use laneweave::scenario::{MapOptions, Origin, Replay};
+use laneweave::scenario::{Origin, Replay};
 use laneweave::style::Model;
 use laneweave::{Fault, FaultKind, Simulation};
-use laneweave_calibration::Classes;
 use laneweave_studies::compare::{ComparisonFiles, USUAL, seeds_from};
 use laneweave_studies::fit::{Request, Rollouts};
 use laneweave_studies::replay::{self, Asked as AskedReplay};
@@ -88,66 +86,6 @@ fn compared(
     Ok((text, files.finish(COMMAND)?))
 }
 
-/// How styles are fitted: what `laneweave fit` takes as options.
-#[derive(Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct FitKeys {
-    map: Option<PathBuf>,
-    columns: Option<PathBuf>,
-    map_options: MapOptions,
-    prior: String,
-    reading: Option<Reading>,
-    classes: Option<usize>,
-    by_paper: bool,
-    draws: u32,
-    repetitions: u32,
-    lead_s: Option<f64>,
-    position_error_m: Option<f64>,
-    judge: Option<u32>,
-    seed: u64,
-}
-
-impl Default for FitKeys {
-    fn default() -> FitKeys {
-        let usual = Request::new(Vec::new());
-        FitKeys {
-            map: None,
-            columns: None,
-            map_options: usual.map_options,
-            prior: usual.prior,
-            reading: None,
-            classes: None,
-            by_paper: false,
-            draws: usual.draws,
-            repetitions: usual.repetitions,
-            lead_s: None,
-            position_error_m: None,
-            judge: None,
-            seed: usual.seed,
-        }
-    }
-}
-
-impl FitKeys {
-    fn request(self, recordings: Vec<PathBuf>) -> Request {
-        Request {
-            recordings,
-            map: self.map,
-            columns: self.columns,
-            map_options: self.map_options,
-            prior: self.prior,
-            reading: self.reading,
-            classes: self.classes.map_or(Classes::Auto, Classes::Exactly),
-            by_paper: self.by_paper,
-            draws: self.draws,
-            repetitions: self.repetitions,
-            lead: self.lead_s,
-            position_error: self.position_error_m,
-            seed: self.seed,
-        }
-    }
-}
-
 /// What a fit leaves.
 #[derive(IntoPyObject)]
 pub(crate) struct Fitted {
@@ -170,14 +108,10 @@ pub(crate) fn fit_styles(
 ) -> PyResult<Fitted> {
     let keys = given("fit", keys)?;
     let (found, text, styles, warnings) = watched(py, progress.as_ref(), move |task| {
-        let keys: FitKeys = fitting(keys)?;
-        let judge = keys.judge;
-        if judge.is_some_and(|it| !(2..=10_000).contains(&it)) {
-            return Err(wrong("judge", "it is out of range", "choose 2 to 10000"));
-        }
-        let observed = keys.request(recordings.clone()).observe()?;
+        let request = Request { recordings, ..fitting(keys)? };
+        let observed = request.observe()?;
         let warnings = observed.problems().iter().map(ToString::to_string).collect();
-        let judged = judge.map(|count| {
+        let judged = request.judge.map(|count| {
             let rollouts = Rollouts { count, threads: threads() };
             observed.judge(&rollouts, &|share| task.has_done(share))
         });
@@ -187,7 +121,7 @@ pub(crate) fn fit_styles(
                 .of_kind(FaultKind::State)
                 .into());
         }
-        let styles = report.write(&out, &recordings, COMMAND)?;
+        let styles = report.write(&out, &request.recordings, COMMAND)?;
         Ok((plain(&report)?, report.to_text(), styles, warnings))
     })?;
     Ok(Fitted { found: to_python(py, &found)?, text, styles, warnings })

@@ -48,7 +48,7 @@ def test_what_has_no_meaning_for_what_is_shown_is_refused(ramps: Path, tmp_path:
     ]  # fmt: skip
     for shown, keys in wrong:
         with pytest.raises(TypeError):
-            lw.view(shown, **{"browser": False} | keys)
+            lw.view(shown, **{"browser": False, **keys})
     results = lw.run(ramps, tmp_path, vehicles_per_hour=1000, duration_s=10, progress=False)
     with pytest.raises(lw.LaneweaveError, match="leave the options of the map out"):
         lw.view(results, map_options={"law": "usa"}, browser=False)

@@ -138,8 +138,9 @@ impl FitArguments {
             by_paper: self.procedure.is_some(),
             draws: self.draws,
             repetitions: self.repetitions,
-            lead: self.lead,
-            position_error: self.position_error,
+            lead_s: self.lead,
+            position_error_m: self.position_error,
+            judge: self.judge,
             seed: self.seed,
             ..Request::new(self.recordings.clone())
         }

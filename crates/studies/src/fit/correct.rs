@@ -27,7 +27,7 @@ impl Observed {
         study: Study,
         asked: &Asked,
     ) -> Result<(Study, Option<Correction>), Fault> {
-        let Some(position_error_m) = self.request.position_error else { return Ok((study, None)) };
+        let Some(position_error_m) = self.request.position_error_m else { return Ok((study, None)) };
         let plain = self.with_errors(&study, asked, 0.0, 0)?;
         let mut repeated: [Vec<Vec<Estimate>>; MULTIPLES.len()] = Default::default();
         for (number, (all, multiple)) in repeated.iter_mut().zip(MULTIPLES).enumerate() {

@@ -29,6 +29,7 @@ use laneweave_models::{Reading, Style};
 use laneweave_scenario::scenario::MapOptions;
 use laneweave_scenario::style::{StyleTemplate, find};
 use laneweave_scenario::{Fault, Source};
+use serde::{Deserialize, Deserializer};
 
 use following::with_following;
 use sources::Sources;
@@ -52,7 +53,8 @@ pub const MOST_CLASSES: usize = 6;
 const LEADS: [f64; 3] = [1.5, 2.5, 3.5];
 
 /// What styles are fitted to, and how.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Request {
     /// The files of the recordings.
     pub recordings: Vec<PathBuf>,
@@ -66,7 +68,8 @@ pub struct Request {
     pub prior: String,
     /// The reading of the incentives; `None`: that of the prior style.
     pub reading: Option<Reading>,
-    /// Number of classes of drivers.
+    /// Number of classes of drivers; as data a number, or nothing.
+    #[serde(deserialize_with = "classes")]
     pub classes: Classes,
     /// Whether the paper's procedure is followed, too, to compare.
     pub by_paper: bool,
@@ -75,12 +78,24 @@ pub struct Request {
     /// Repetitions of holding out a third of the drivers.
     pub repetitions: u32,
     /// Time before the crossing at which changes begin [s]; `None`: as the recording shows it.
-    pub lead: Option<f64>,
+    pub lead_s: Option<f64>,
     /// Standard deviation of the errors of recorded positions along each axis [m], for which weights are corrected;
     /// `None`: they are not.
-    pub position_error: Option<f64>,
+    pub position_error_m: Option<f64>,
+    /// How many simulations judge the fit on the last third of the recorded time; `None`: it is not judged.
+    pub judge: Option<u32>,
     /// Seed of all random numbers.
     pub seed: u64,
+}
+
+fn classes<'a, D: Deserializer<'a>>(from: D) -> Result<Classes, D::Error> {
+    Ok(Option::deserialize(from)?.map_or(Classes::Auto, Classes::Exactly))
+}
+
+impl Default for Request {
+    fn default() -> Request {
+        Request::new(Vec::new())
+    }
 }
 
 impl Request {
@@ -97,8 +112,9 @@ impl Request {
             by_paper: false,
             draws: 200,
             repetitions: 4,
-            lead: None,
-            position_error: None,
+            lead_s: None,
+            position_error_m: None,
+            judge: None,
             seed: 1,
         }
     }
@@ -147,6 +163,9 @@ impl Request {
         }
         within("--draws", self.draws as usize, 0, 10_000)?;
         within("--repetitions", self.repetitions as usize, 1, 100)?;
+        if let Some(count) = self.judge {
+            within("--judge", count as usize, 2, 10_000)?;
+        }
         if self.recordings.is_empty() {
             return Err(Fault::new("recordings", "there is none", "name a file"));
         }
@@ -154,11 +173,11 @@ impl Request {
         const LONGEST: f64 = 10.0;
         /// Largest error [m]: beyond it lanes are not told apart.
         const LARGEST: f64 = 1.0;
-        if let Some(lead) = self.lead.filter(|it| !(0.0..=LONGEST).contains(it)) {
+        if let Some(lead) = self.lead_s.filter(|it| !(0.0..=LONGEST).contains(it)) {
             let what = format!("{lead} s is no time before a crossing");
             return Err(Fault::new("--lead", what, "choose 0 to 10 s"));
         }
-        if let Some(error) = self.position_error.filter(|it| !(*it > 0.0 && *it <= LARGEST)) {
+        if let Some(error) = self.position_error_m.filter(|it| !(*it > 0.0 && *it <= LARGEST)) {
             let what = format!("{error} m is no error of positions that can be corrected");
             return Err(Fault::new("--position-error", what, "choose more than 0, and 1 m at most"));
         }
@@ -182,7 +201,7 @@ impl Request {
 
     /// When changes begin.
     fn begin(&self) -> Begin {
-        self.lead.map_or(Begin::Auto, Begin::Lead)
+        self.lead_s.map_or(Begin::Auto, Begin::Lead)
     }
 
     /// The style from which a fit begins, as it is written.
