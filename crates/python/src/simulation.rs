@@ -1,11 +1,11 @@
 //! The class `Simulation`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use laneweave::{Class, Columns, Control, Event, NewVehicle, Parameter, VehicleId};
-use laneweave::{Fault, FaultKind};
-use laneweave_viewer::{Camera, Surroundings, picture};
+use laneweave_viewer::Surroundings;
+use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
@@ -15,7 +15,7 @@ use crate::errors::{Failure, detached, locked, refused};
 use crate::keys::Given;
 use crate::template::Template;
 use crate::values::{Signals, named, to_python};
-use crate::view::{GivenCamera, View, live};
+use crate::view::{GivenCamera, View, live, taken};
 
 /// A simulation: traffic on a map, which a program steps through, asks, and changes.
 #[pyclass(frozen, module = "laneweave")]
@@ -81,6 +81,13 @@ impl Simulation {
         let template = Template::of(py, source, keys)?;
         let seed = template.made.scenario().run.seed;
         detached(py, || Simulation::spawned(&template, seed))
+    }
+
+    /// A template of simulations that go on from where this one is.
+    fn template(&self, py: Python<'_>) -> PyResult<Template> {
+        self.with(py, |it| {
+            Ok(Template { made: self.branched(it)?.into_template(), around: Arc::clone(&self.around) })
+        })
     }
 
     /// Simulates `count` steps, and returns what happened in them.
@@ -330,7 +337,6 @@ impl Simulation {
     }
 
     /// A picture of the traffic as it is now, as PNG.
-    #[pyo3(signature = (camera, size))]
     #[pyo3(name = "_png")]
     fn png<'py>(
         &self,
@@ -338,19 +344,20 @@ impl Simulation {
         camera: GivenCamera,
         size: [u32; 2],
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let camera = camera.camera().map_err(|it| it.raise(py))?;
-        let picture = self.with(py, |it| {
-            if let Camera::Follow(id) = camera
-                && VehicleId::try_from(id).ok().and_then(|id| it.view(id)).is_none()
-            {
-                let what = format!("vehicle {id} is not on the road");
-                let fault = Fault::new("camera", what, "choose one of simulation.vehicles()");
-                return Err(fault.of_kind(FaultKind::NotFound).into());
-            }
-            let mut shown = live(self.branched(it)?, &self.around, Path::new(""));
-            Ok(picture(&mut shown, camera, size)?)
-        })?;
-        Ok(PyBytes::new(py, &picture))
+        let png = self.with(py, |it| Ok(taken(self.branched(it)?, &self.around, camera, size)?.to_png()?))?;
+        Ok(PyBytes::new(py, &png))
+    }
+
+    /// The same as an array: height × width × red, green and blue.
+    #[pyo3(name = "_pixels")]
+    fn pixels<'py>(
+        &self,
+        py: Python<'py>,
+        camera: GivenCamera,
+        size: [u32; 2],
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let rgb = self.with(py, |it| taken(self.branched(it)?, &self.around, camera, size))?.to_rgb();
+        rgb.into_pyarray(py).reshape([size[1] as usize, size[0] as usize, 3])
     }
 
     /// The page in the browser with a branch of it, which goes on by itself.

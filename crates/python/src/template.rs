@@ -33,7 +33,7 @@ impl Template {
             let map = read_map(&scenario, &origin)?;
             let around = Arc::new(Surroundings::of(&map));
             let simulation = laneweave::Simulation::from_scenario_on(map, &scenario, &origin)?;
-            Ok(Template { made: simulation.into_template()?, around })
+            Ok(Template { made: simulation.into_template(), around })
         })
     }
 }
@@ -46,7 +46,7 @@ impl Template {
         Template::of(py, source, keys)
     }
 
-    /// A simulation at its start, with this seed of all random numbers.
+    /// A simulation with this seed of all random numbers, which begins where the template is.
     fn spawn(&self, py: Python<'_>, seed: u64) -> PyResult<Simulation> {
         detached(py, || Simulation::spawned(self, seed))
     }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use laneweave::scenario::MapOptions;
-use laneweave::{Fault, FaultKind};
-use laneweave_viewer::{Camera, Doorway, Live, Server, Shown, Source, Surroundings, Token};
+use laneweave::{Fault, FaultKind, VehicleId};
+use laneweave_viewer::{Camera, Doorway, Live, Picture, Server, Shown, Source, Surroundings, Token, picture};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -141,4 +141,25 @@ impl GivenCamera {
 /// A source that goes on from where `simulation` is, on a map that has this beside its network.
 pub(crate) fn live(simulation: laneweave::Simulation, around: &Surroundings, saved: &Path) -> Live {
     Live::of(simulation, around.clone(), saved.to_owned())
+}
+
+/// A picture of a simulation.
+///
+/// # Errors
+/// If the camera follows a vehicle that is not on the road, or is none, or if the size is impossible.
+pub(crate) fn taken(
+    simulation: laneweave::Simulation,
+    around: &Surroundings,
+    camera: GivenCamera,
+    size: [u32; 2],
+) -> Result<Picture, Failure> {
+    let camera = camera.camera()?;
+    if let Camera::Follow(id) = camera
+        && VehicleId::try_from(id).ok().and_then(|id| simulation.view(id)).is_none()
+    {
+        let what = format!("vehicle {id} is not on the road");
+        let fault = Fault::new("camera", what, "choose one of simulation.vehicles()");
+        return Err(fault.of_kind(FaultKind::NotFound).into());
+    }
+    Ok(picture(&mut live(simulation, around, Path::new("")), camera, size)?)
 }

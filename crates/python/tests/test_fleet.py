@@ -64,3 +64,17 @@ def test_vehicles_are_driven_by_batch(fleet: lw.Fleet) -> None:
         fleet.control(vehicles[:2], np.zeros(2))
     fleet.reset(0, 77)
     fleet.step()
+
+
+def test_a_fleet_begins_where_a_simulation_is(merge: Path) -> None:
+    simulation = lw.Simulation(merge, vehicles_per_hour=2400, seed=3)
+    simulation.run(40)
+    template = simulation.template()
+    fleet = lw.Fleet(template, [3, 4])
+    assert fleet.state_hashes == [simulation.state_hash] * 2
+    fleet.step(100)
+    simulation.step(100)
+    assert fleet.state_hashes[0] == simulation.state_hash != fleet.state_hashes[1]
+    fleet.reset(1, 3)
+    fleet.step(100)
+    assert fleet.state_hashes[1] == simulation.state_hash

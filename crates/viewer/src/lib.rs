@@ -22,7 +22,7 @@ pub use asked::{Asked, LONGEST};
 pub use export::export;
 pub use frame::{Slots, View};
 pub use recent::Recent;
-pub use render::{Camera, Pictures, picture, render};
+pub use render::{Camera, Picture, Pictures, picture, render};
 pub use scene::{Scene, Surroundings};
 pub use server::{Address, Doorway, Server, Token};
 pub use snapshot::{Body, Colour, Seen, Snapshot};

@@ -23,12 +23,15 @@ impl Simulation {
     /// # }
     /// ```
     pub fn reset(&mut self, seed: u64) -> Result<(), Fault> {
-        match &self.template {
+        let has_begun = match &self.template {
             Some(template) => template.reset(&mut self.prepared, seed),
-            None => self.prepared.restart(&self.scenario, &self.origin, seed)?,
-        }
+            None => {
+                self.prepared.restart(&self.scenario, &self.origin, seed)?;
+                false
+            }
+        };
         self.scenario.run.seed = seed;
-        (self.is_commanded, self.is_changed) = (false, false);
+        (self.is_commanded, self.is_changed) = (has_begun, has_begun);
         Ok(())
     }
 }

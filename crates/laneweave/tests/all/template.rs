@@ -1,6 +1,6 @@
 //! Many simulations of one template.
 
-use laneweave::{Class, Control, FaultKind, Lateral, Longitudinal, NewVehicle, Simulation, Template};
+use laneweave::{Class, Control, Lateral, Longitudinal, NewVehicle, Simulation, Template};
 use laneweave_test_data::map;
 
 fn template(name: &str, seed: u64) -> Template {
@@ -65,16 +65,25 @@ fn a_simulation_that_was_saved_goes_on_in_another_one_of_its_template() {
 }
 
 #[test]
-fn a_simulation_that_has_begun_is_no_template() {
-    let simulation = || template("on_ramp.osm", 1).spawn(1).expect("one thread");
-    assert!(simulation().into_template().is_ok());
-    let mut driven = simulation();
-    driven.step();
-    let mut changed = simulation();
-    let (origin, _) = changed.origins()[0];
-    changed.set_demand(origin, 10.0).expect("an entrance");
-    for it in [driven, changed] {
-        let fault = it.into_template().err().expect("it has begun");
-        assert!(fault.kind == FaultKind::State && fault.to_string().contains("has begun"), "{fault}");
+fn what_a_simulation_that_has_begun_spawns_goes_on_from_there_with_random_numbers_of_its_own() {
+    for name in ["ramps.osm", "town.osm"] {
+        let mut begun = template(name, 1).spawn(5).expect("one thread");
+        let (origin, _) = begun.origins()[0];
+        begun.run(40.0).expect("a time to come");
+        begun.set_demand(origin, 900.0).expect("an entrance");
+        let saved = begun.save().expect("there is memory");
+        let template = begun.into_template();
+        let mut gone_on = template.spawn(5).expect("one thread");
+        assert_eq!(gone_on.save().expect("there is memory"), saved, "{name}: it is where the other was");
+        let mut same = template.spawn(5).expect("one thread");
+        assert_eq!(hash(&mut gone_on), hash(&mut same), "{name}");
+        let mut restored = self::template(name, 1).spawn(5).expect("one thread");
+        restored.restore(&saved).expect("both are of one template");
+        assert_eq!(hash(&mut restored), hash(&mut gone_on), "{name}: the other would have gone on so");
+        let mut other = template.spawn(6).expect("one thread");
+        assert_ne!(hash(&mut other), hash(&mut same), "{name}: other random numbers");
+        gone_on.reset(6).expect("a seed");
+        assert_eq!((gone_on.time_s(), gone_on.is_as_it_began()), (40.0, false));
+        assert_eq!(hash(&mut gone_on), hash(&mut other), "{name}: reset");
     }
 }

@@ -16,7 +16,7 @@ pub struct Template {
 }
 
 impl From<Prepared> for Template {
-    /// A template of what is `prepared`, and has not made a step.
+    /// A template of what is `prepared`.
     fn from(prepared: Prepared) -> Template {
         let Prepared { world, script, conditions, threads: _ } = prepared;
         Template { worlds: world.into(), script, conditions }
@@ -24,19 +24,24 @@ impl From<Prepared> for Template {
 }
 
 impl Template {
-    /// The same scenario at its start with this `seed`, on so many `threads`.
+    /// The same scenario with this `seed`, on so many `threads`. It goes on from where the template is.
     ///
     /// # Errors
     /// If the system does not start so many threads.
     pub fn spawn(&self, seed: u64, threads: usize) -> Result<Prepared, WorldError> {
         let world = self.worlds.spawn(seed, threads)?;
-        let (script, conditions) = (self.script.restarted(seed), Arc::clone(&self.conditions));
+        let (script, conditions) = (self.script(seed), Arc::clone(&self.conditions));
         Ok(Prepared { world, script, conditions, threads })
     }
 
     /// Makes `prepared`, which this template has spawned, what it spawns with this `seed`.
     pub fn reset(&self, prepared: &mut Prepared, seed: u64) {
         prepared.world.reset(&self.worlds, seed);
-        prepared.script = self.script.restarted(seed);
+        prepared.script = self.script(seed);
+    }
+
+    fn script(&self, seed: u64) -> Script {
+        let is_at_start = self.worlds.start().clock().step == 0;
+        if is_at_start { self.script.restarted(seed) } else { self.script.clone() }
     }
 }

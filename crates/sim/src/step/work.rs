@@ -31,13 +31,14 @@ impl Work {
         })
     }
 
-    /// Forgets the last steps, and keeps its memory.
-    pub(super) fn begin_again(&mut self) {
-        for plan in &mut self.plans {
+    /// Goes on from the work of another world, with the memory that it has.
+    pub(super) fn go_on_from(&mut self, other: &Work) {
+        for (plan, other) in self.plans.iter_mut().zip(&other.plans) {
             plan.clear();
-            plan.distance = 0.0;
+            plan.waiting.clone_from(&other.waiting);
+            plan.distance = other.distance;
         }
-        self.reset_counters(Counters::default());
+        self.reset_counters(other.counted());
     }
 
     /// The outbox of all threads, after it was gathered.

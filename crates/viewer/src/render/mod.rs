@@ -49,7 +49,7 @@ pub fn render(
     while source.time_s() <= until_s + almost {
         let mut snapshot = Snapshot::default();
         source.see(&Wants::default(), &mut snapshot);
-        let picture = drawn(&scene, &snapshot, asked.camera, asked.size)?;
+        let picture = drawn(&scene, &snapshot, asked.camera, asked.size)?.to_png()?;
         take(number, snapshot.time_s, &picture)?;
         number += 1;
         let is_next_too_late = source.time_s() + f64::from(every) * source.step_s() > until_s + almost;
@@ -72,18 +72,36 @@ fn go_to(source: &mut dyn Source, time_s: f64) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A picture of `source` as it is now, as PNG of so many pixels.
+/// A picture.
+pub struct Picture(Pixmap);
+
+impl Picture {
+    /// It as PNG.
+    ///
+    /// # Errors
+    /// None, as long as there is memory.
+    pub fn to_png(&self) -> Result<Vec<u8>, Fault> {
+        self.0.encode_png().map_err(|error| Fault::bug("render", error))
+    }
+
+    /// Red, green and blue of its pixels, row by row from the top. Nothing in it is transparent.
+    #[must_use]
+    pub fn to_rgb(&self) -> Vec<u8> {
+        self.0.pixels().iter().flat_map(|it| [it.red(), it.green(), it.blue()]).collect()
+    }
+}
+
+/// A picture of `source` as it is now, of so many pixels.
 ///
 /// # Errors
 /// If the size is impossible.
-pub fn picture(source: &mut dyn Source, camera: Camera, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+pub fn picture(source: &mut dyn Source, camera: Camera, size: [u32; 2]) -> Result<Picture, Fault> {
     let mut snapshot = Snapshot::default();
     source.see(&Wants::default(), &mut snapshot);
     drawn(&source.scene(), &snapshot, camera, size)
 }
 
-/// One picture as PNG.
-fn drawn(scene: &Scene, snapshot: &Snapshot, camera: Camera, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+fn drawn(scene: &Scene, snapshot: &Snapshot, camera: Camera, size: [u32; 2]) -> Result<Picture, Fault> {
     let [width, height] = size;
     let mut canvas = Pixmap::new(width, height).ok_or_else(|| {
         let what = format!("a picture of {width} × {height} pixels");
@@ -95,5 +113,5 @@ fn drawn(scene: &Scene, snapshot: &Snapshot, camera: Camera, size: [u32; 2]) -> 
     draw::lights(&mut canvas, &sight, scene, snapshot);
     let vehicles: Vec<&Seen> = snapshot.vehicles.iter().filter(|it| sight.shows(it)).collect();
     vehicles.into_iter().for_each(|it| draw::vehicle(&mut canvas, &sight, it));
-    canvas.encode_png().map_err(|error| Fault::bug("render", error))
+    Ok(Picture(canvas))
 }
