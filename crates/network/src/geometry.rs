@@ -66,11 +66,14 @@ pub fn turn(from: f64, to: f64) -> f64 {
     turn.sin().atan2(turn.cos())
 }
 
-/// A line of at least two distinct points, with the station (horizontal length from the start) of each.
+/// A line of at least two distinct points, with the station (horizontal length from the start) of each, and the
+/// direction from each to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
     points: Vec<Point>,
     stations: Vec<f64>,
+    /// Counter-clockwise from east [rad], one less than points.
+    headings: Vec<f64>,
 }
 
 impl Polyline {
@@ -81,7 +84,11 @@ impl Polyline {
     pub fn new(points: impl IntoIterator<Item = Point>) -> Option<Polyline> {
         let points = points.into_iter();
         let (least, _) = points.size_hint();
-        let mut line = Polyline { points: Vec::with_capacity(least), stations: Vec::with_capacity(least) };
+        let mut line = Polyline {
+            points: Vec::with_capacity(least),
+            stations: Vec::with_capacity(least),
+            headings: Vec::with_capacity(least),
+        };
         for point in points {
             if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
                 return None;
@@ -99,6 +106,7 @@ impl Polyline {
                 if step <= Polyline::SAME {
                     return;
                 }
+                self.headings.push((point.y - last.y).atan2(point.x - last.x));
                 self.stations.push(self.length() + step);
             }
         }
@@ -131,8 +139,11 @@ impl Polyline {
     /// The same line in the opposite direction.
     pub fn reversed(&self) -> Polyline {
         let length = self.length();
+        let points: Vec<Point> = self.points.iter().rev().copied().collect();
+        let heading = |it: &[Point]| (it[1].y - it[0].y).atan2(it[1].x - it[0].x);
         Polyline {
-            points: self.points.iter().rev().copied().collect(),
+            headings: points.windows(2).map(heading).collect(),
+            points,
             stations: self.stations.iter().rev().map(|s| length - s).collect(),
         }
     }
@@ -151,15 +162,13 @@ impl Polyline {
     }
 
     /// Directions of travel on its segments, counter-clockwise from east [rad].
-    pub(crate) fn headings(&self) -> impl Iterator<Item = f64> {
-        self.points.windows(2).map(|it| (it[1].y - it[0].y).atan2(it[1].x - it[0].x))
+    pub(crate) fn headings(&self) -> &[f64] {
+        &self.headings
     }
 
     /// Direction of travel at `station`, counter-clockwise from east [rad].
     pub fn heading(&self, station: f64) -> f64 {
-        let (segment, _) = self.segment(station);
-        let (from, to) = (self.points[segment], self.points[segment + 1]);
-        (to.y - from.y).atan2(to.x - from.x)
+        self.headings[self.segment(station).0]
     }
 
     /// The point at `station`, moved `offset` to the left [m].
@@ -175,7 +184,7 @@ impl Polyline {
 
     /// A walk along the line from `station` [m]: for many stations one after the other, each near the one before.
     pub fn walk(&self, station: f64) -> LineWalk<'_> {
-        LineWalk { line: self, after: self.segment(station).0 + 1, heading: None }
+        LineWalk { line: self, after: self.segment(station).0 + 1 }
     }
 
     /// Station of the first place where the line through `points` crosses this one, seen from above.
@@ -209,8 +218,6 @@ pub struct LineWalk<'a> {
     line: &'a Polyline,
     /// The number of the point after the last place.
     after: usize,
-    /// The direction of the segment that ends at the point with this number.
-    heading: Option<(usize, f64)>,
 }
 
 impl LineWalk<'_> {
@@ -231,15 +238,7 @@ impl LineWalk<'_> {
         if before > 0 && rear < self.line.stations[before] {
             return None;
         }
-        let heading = match self.heading {
-            Some((of, heading)) if of == self.after => heading,
-            _ => {
-                let [from, to] = [self.line.points[before], self.line.points[self.after]];
-                (to.y - from.y).atan2(to.x - from.x)
-            }
-        };
-        self.heading = Some((self.after, heading));
-        Some((self.on_segment(0.5 * (front + rear)), heading))
+        Some((self.on_segment(0.5 * (front + rear)), self.line.headings[before]))
     }
 
     /// Goes to the segment with this station.
@@ -258,7 +257,7 @@ impl LineWalk<'_> {
     /// The point at `station` along the segment where the walk is.
     #[inline]
     fn on_segment(&self, station: f64) -> Point {
-        let Polyline { points, stations } = self.line;
+        let Polyline { points, stations, .. } = self.line;
         let [from, to] = [self.after - 1, self.after];
         points[from].towards(&points[to], (station - stations[from]) / (stations[to] - stations[from]))
     }

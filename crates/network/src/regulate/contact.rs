@@ -258,7 +258,7 @@ impl<'a> Directions<'a> {
             let (sin, cos) = heading.sin_cos();
             (heading, [cos, sin])
         };
-        Directions { line, of_segments: line.headings().map(direction).collect() }
+        Directions { line, of_segments: line.headings().iter().copied().map(direction).collect() }
     }
 
     fn at(&self, station: f64) -> (f64, [f64; 2]) {

@@ -1,14 +1,13 @@
 //! The poses of all vehicles, as columns: one walk along each lane finds where they are, another one along each lane
 //! beside it finds those who change lanes.
 
-use laneweave_network::{ChainIndex, LineWalk, Network, Point, Pose};
+use laneweave_network::{ChainIndex, LineWalk, Network, Pose};
 
-use crate::state::lane::{DriverState, Kinematics, LaneChangeState};
-use crate::state::previous_lanes::PreviousLanes;
+use crate::state::lane::{DriverState, Entry, Kinematics, LaneChangeState};
 use crate::step::columns::{Rows, take};
 use crate::step::world::World;
-use crate::view::pose::{between, bumpers_between, on_path, pose};
-use crate::view::scene::Spot;
+use crate::view::pose::{between, bumpers_between, places_between, pose};
+use crate::view::scene::{Scene, Spot};
 
 /// Whether a vehicle is in the middle of its lane with all of its length.
 #[inline]
@@ -22,7 +21,6 @@ fn keeps_lane(motion: &Kinematics, driver: &DriverState, lane_change: &LaneChang
 /// Walks along a lane in driving order, and along those to which its vehicles change.
 struct Walks<'a> {
     network: &'a Network,
-    chain: ChainIndex,
     along: LineWalk<'a>,
     /// Along the last two other lanes.
     beside: [Option<(ChainIndex, LineWalk<'a>)>; 2],
@@ -30,7 +28,7 @@ struct Walks<'a> {
 
 impl<'a> Walks<'a> {
     fn new(network: &'a Network, chain: ChainIndex) -> Walks<'a> {
-        Walks { network, chain, along: network.chain(chain).centre.walk(0.0), beside: [const { None }; 2] }
+        Walks { network, along: network.chain(chain).centre.walk(0.0), beside: [const { None }; 2] }
     }
 
     /// The pose of a body with its bumpers at these places along the lane [m].
@@ -42,25 +40,32 @@ impl<'a> Walks<'a> {
         }
     }
 
-    /// The point at `x` along the path over `previous_lanes` onto `chain` [m].
+    /// The pose of the vehicle of an entry between two lanes, if all of it is on them.
     #[inline]
-    fn at(&mut self, chain: ChainIndex, previous_lanes: PreviousLanes, x: f64) -> Point {
-        if x < 0.0 {
-            return on_path(self.network, chain, previous_lanes, x, 0.0);
+    fn between_lanes(&mut self, scene: &Scene, entry: &Entry) -> Option<Pose> {
+        let counterpart = entry.lane_change.counterpart?;
+        let [own, other] = places_between(entry, counterpart);
+        if own[1] < 0.0 || other[1] < 0.0 {
+            return None;
         }
-        if chain == self.chain {
-            return self.along.at(x);
-        }
+        let [along, beside] = self.along(counterpart.chain, counterpart.x);
+        let points = [own.map(|it| along.at(it)), other.map(|it| beside.at(it))];
+        Some(between(bumpers_between(scene, entry, points)))
+    }
+
+    /// The walk along the lane, and one along another lane, which begins at `x` [m] if it is new.
+    #[inline]
+    fn along(&mut self, chain: ChainIndex, x: f64) -> [&mut LineWalk<'a>; 2] {
+        let Walks { network, along, beside } = self;
         let is_there = |it: &Option<(ChainIndex, LineWalk)>| it.as_ref().is_some_and(|it| it.0 == chain);
-        if !is_there(&self.beside[0]) {
-            self.beside.swap(0, 1);
+        if !is_there(&beside[0]) {
+            beside.swap(0, 1);
         }
-        if !is_there(&self.beside[0]) {
-            self.beside[0] = None;
+        if !is_there(&beside[0]) {
+            beside[0] = None;
         }
-        let (_, walk) =
-            self.beside[0].get_or_insert_with(|| (chain, self.network.chain(chain).centre.walk(x)));
-        walk.at(x)
+        let (_, other) = beside[0].get_or_insert_with(|| (chain, network.chain(chain).centre.walk(x)));
+        [along, other]
     }
 }
 
@@ -87,11 +92,9 @@ impl World {
                     && let Some(body) = externals.body(motion.id)
                 {
                     body.pose
-                } else if let Some(counterpart) = lane_change.counterpart {
-                    let at = |chain, previous_lanes, x| walks.at(chain, previous_lanes, x);
-                    between(bumpers_between(&scene, chain, &lane.entry(index), counterpart, at))
                 } else {
-                    pose(&scene, Spot { chain, index })
+                    let on_lanes = walks.between_lanes(&scene, &lane.entry(index));
+                    on_lanes.unwrap_or_else(|| pose(&scene, Spot { chain, index }))
                 };
                 fill(place, &there);
             }

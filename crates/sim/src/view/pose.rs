@@ -27,9 +27,10 @@ pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     let Entry { motion, lane_change, .. } = &entry;
     match lane_change.counterpart {
         Some(counterpart) => {
-            bumpers_between(scene, spot.chain, &entry, counterpart, |chain, previous_lanes, x| {
-                on_path(network, chain, previous_lanes, x, 0.0)
-            })
+            let [own, other] = places_between(&entry, counterpart);
+            let own = own.map(|it| on_path(network, spot.chain, lane_change.previous_lanes, it, 0.0));
+            let other = other.map(|it| on_path(network, counterpart.chain, PreviousLanes::NONE, it, 0.0));
+            bumpers_between(scene, &entry, [own, other])
         }
         None => {
             let [front_offset, rear_offset] = offsets(scene, spot.chain, &entry);
@@ -40,26 +41,20 @@ pub(crate) fn bumpers(scene: &Scene, spot: Spot) -> [Point; 2] {
     }
 }
 
-/// The middles of the front and rear bumpers of a vehicle between its lane on `chain` and that of its counterpart.
-///
-/// `at` gives the point at a station along the path over these previous lanes onto a chain.
+/// Where the front and the rear bumper of a vehicle between two lanes are along the lane of its main entry, and along
+/// that of its counterpart [m].
 #[inline]
-pub(crate) fn bumpers_between(
-    scene: &Scene,
-    chain: ChainIndex,
-    entry: &Entry,
-    counterpart: Counterpart,
-    mut at: impl FnMut(ChainIndex, PreviousLanes, f64) -> Point,
-) -> [Point; 2] {
+pub(crate) fn places_between(entry: &Entry, counterpart: Counterpart) -> [[f64; 2]; 2] {
     let Entry { motion, lane_change, .. } = entry;
-    let [share_of_front, share_of_rear] = shares(scene, entry);
     let [length, counterpart_length] = lengths(motion, lane_change.progress, counterpart.stretch);
-    let (rear, counterpart_rear) = (motion.x - length, counterpart.x - counterpart_length);
-    let mut between = |x: f64, counterpart_x: f64, share: f64| {
-        let here = at(chain, lane_change.previous_lanes, x);
-        here.towards(&at(counterpart.chain, PreviousLanes::NONE, counterpart_x), share)
-    };
-    [between(motion.x, counterpart.x, share_of_front), between(rear, counterpart_rear, share_of_rear)]
+    [[motion.x, motion.x - length], [counterpart.x, counterpart.x - counterpart_length]]
+}
+
+/// The middles of the front and rear bumpers of a vehicle between two lanes, from the points on these lanes.
+#[inline]
+pub(crate) fn bumpers_between(scene: &Scene, entry: &Entry, [own, other]: [[Point; 2]; 2]) -> [Point; 2] {
+    let [of_front, of_rear] = shares(scene, entry);
+    [own[0].towards(&other[0], of_front), own[1].towards(&other[1], of_rear)]
 }
 
 /// The middles of the front and rear bumpers of a vehicle that keeps its lane on `chain`, and came there over
@@ -131,7 +126,7 @@ fn lane_spacing(scene: &Scene, chain: ChainIndex, entry: &Entry) -> f64 {
 }
 
 /// The point at `x` along the path over `previous_lanes` onto `chain`, `offset` to the left [m].
-pub(crate) fn on_path(
+fn on_path(
     network: &Network,
     chain: ChainIndex,
     previous_lanes: PreviousLanes,
