@@ -30,6 +30,15 @@ def test_examples_of_the_book_run(monkeypatch: pytest.MonkeyPatch, tmp_path: Pat
     assert names["total"] > 100 and names["sight"][:, 0, 0].all()
 
 
+def test_examples_of_learning_run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(ROOT)
+    pytest.importorskip("gymnasium")
+    assert len(examples("docs/src/how-to/learn.md")) == 3
+    names = run("docs/src/how-to/learn.md")
+    assert names["observations"].shape == (64, 78)
+    assert "lanelets" in capsys.readouterr().out
+
+
 def test_the_eight_lines_of_the_readme_run(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -15,7 +15,7 @@ const LEVELS: [&[&str]; 13] = [
     &["scenario"],
     &["results"],
     &["laneweave"],
-    &["studies"],
+    &["learning", "studies"],
     &["viewer"],
     &["cli"],
     &["python"],

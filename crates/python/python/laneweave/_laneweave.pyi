@@ -170,8 +170,17 @@ class Simulation:
     def branch(self) -> Simulation:
         """Another simulation in the same state, which goes on by itself."""
 
+    def template(self) -> Template:
+        """A template of simulations that go on from where this one is, each with random numbers of its own: a Fleet, say,
+        in traffic that has been driven for a while."""
+
     def _png(self, camera: str | tuple[float, float, float] | int, size: tuple[int, int]) -> bytes:
         """A picture of the traffic as it is now; see laneweave.picture."""
+
+    def _pixels(
+        self, camera: str | tuple[float, float, float] | int, size: tuple[int, int]
+    ) -> npt.NDArray[np.uint8]:
+        """The same as an array: height × width × red, green and blue."""
 
     def _view(self, saved: Path, port: int) -> View:
         """The page in the browser with a branch of it; see laneweave.view."""
@@ -188,12 +197,67 @@ class Template:
 
     def __new__(cls, source: str | PathLike[str] | Map, **keys: Any) -> Self: ...
     def spawn(self, seed: int) -> Simulation:
-        """A simulation at its start, with this seed of all random numbers. Its drivers are those of the template: of the
+        """A simulation with this seed of all random numbers, which begins where the template is: at its start, unless a
+        simulation that had begun gave it. Its drivers are those of the template: of the
         seed, or the drivers_seed, with which that was made."""
 
     @property
     def scenario(self) -> dict[str, Any]:
         """The scenario, with the keys of a scenario file."""
+
+class Batch:
+    """Many worlds in which a program learns to drive one vehicle: what the environments of laneweave.gym are made of."""
+
+    TERMS: list[str]
+    """The names of the terms of a reward."""
+    CHOICES: list[str]
+    """The names of the discrete actions, in the order of their numbers."""
+
+    def __new__(
+        cls,
+        source: str | PathLike[str] | Map,
+        populations: list[tuple[str, dict[str, Any]]],
+        task: dict[str, Any],
+        seeds: list[int],
+        threads: int = 1,
+        autoreset: str = "next_step",
+        events: bool = False,
+    ) -> Self: ...
+    @property
+    def parts(self) -> list[dict[str, Any]]:
+        """The parts of an observation: name, shape and columns of each."""
+
+    @property
+    def task(self) -> dict[str, Any]:
+        """The task, with all its values."""
+
+    @property
+    def populations(self) -> list[str]:
+        """The name of the population in each world."""
+
+    def reset(self, seeds: list[int | None], mask: list[bool], observations: npt.NDArray[np.float32]) -> None:
+        """Begins the next episodes where the mask is true: the first one of a seed where one is given."""
+
+    def act(
+        self,
+        actions: npt.NDArray[np.float64],
+        observations: npt.NDArray[np.float32],
+        last_observations: npt.NDArray[np.float32],
+        rewards: npt.NDArray[np.float64],
+        terms: npt.NDArray[np.float64],
+        terminated: npt.NDArray[np.bool_],
+        truncated: npt.NDArray[np.bool_],
+    ) -> None:
+        """Acts in all worlds, and fills the arrays."""
+
+    def events(self, number: int) -> list[dict[str, Any]]:
+        """What happened in a world in the steps of the last action, if it keeps that."""
+
+    def ego(self, number: int) -> int:
+        """The vehicle that the program drives in a world."""
+
+    def simulation(self, number: int) -> Simulation:
+        """A simulation that goes on from where a world is."""
 
 class Fleet:
     """Many simulations of one template, stepped together on one pool of threads."""

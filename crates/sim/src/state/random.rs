@@ -42,6 +42,8 @@ pub enum Purpose {
     MisperceptionAhead,
     /// A driver's errors in what it sees of a vehicle behind.
     MisperceptionBehind,
+    /// How an episode begins, in which a program learns to drive.
+    Episode,
 }
 
 /// The source of all random numbers of a run.

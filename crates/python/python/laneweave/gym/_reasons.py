@@ -1,0 +1,23 @@
+"""Why the drivers around did what they did."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._worlds import Worlds
+
+
+class Reasons:
+    """The lane changes of the drivers around the vehicle, with their reasons."""
+
+    KEPT = ("vehicle", "style", "side", "kind", "is_completed", "time_s", "reasons", "utility", "threshold")
+
+    def __init__(self, worlds: Worlds) -> None:
+        self._worlds = worlds
+
+    def of(self, world: int) -> list[dict[str, Any]]:
+        """What drivers of a world did in the steps of the last action: each lane change with its incentives."""
+        events = self._worlds.batch.events(world)
+        changes = (it for it in events if it["event"] == "lane_change")
+        return [{key: it[key] for key in self.KEPT} for it in changes]
