@@ -54,8 +54,8 @@ impl Template {
         &self.0.scenario
     }
 
-    /// A simulation with this seed of all random numbers, which begins where the template is. It has as many threads as `run.threads` says,
-    /// and one if that is not set.
+    /// A simulation with this seed of all random numbers, which begins where the template is. It has as many threads as
+    /// `run.threads` says, and one if that is not set.
     ///
     /// # Errors
     /// If the system does not start so many threads.
