@@ -14,7 +14,7 @@ pub enum Action {
     Discrete,
     /// An acceleration and a lane wish, both from −1 to 1. At −1 the vehicle brakes with 8 m/s², at 1 it accelerates
     /// with 3 m/s², whatever is ahead. Below −1/3 it changes to the right, above 1/3 to the left, otherwise it keeps
-    /// its lane.
+    /// its lane. Numbers beyond count as −1 and 1.
     Continuous,
     /// The displacement of its centre until the next action: forwards and to the left, in the frame of the vehicle [m],
     /// and its turn counter-clockwise [rad]. The vehicle drives there in equal parts, whatever is in its way.
@@ -81,12 +81,28 @@ impl Action {
         }
     }
 
+    /// Whether a number can be part of an action.
+    pub(crate) fn takes(self, number: f64) -> bool {
+        match self {
+            Action::Discrete => number.fract() == 0.0 && (0.0..Choice::ALL.len() as f64).contains(&number),
+            Action::Continuous | Action::Pose => number.is_finite(),
+        }
+    }
+
+    /// What to do where it cannot.
+    pub(crate) fn remedy(self) -> &'static str {
+        match self {
+            Action::Discrete => "choose 0 to 4: left, keep, right, faster, slower",
+            Action::Continuous | Action::Pose => "give finite numbers",
+        }
+    }
+
     /// What `numbers` ask of the vehicle, whose target speed so far is `target` [m/s]. It becomes the new one.
     pub(crate) fn asked(self, numbers: &[f64], vehicle: &Vehicle, limit: f64, target: &mut f64) -> Asked {
         let driven = |longitudinal, lateral| Asked::Control(Control::Drive { longitudinal, lateral });
         match (self, numbers) {
             (Action::Discrete, [number]) => {
-                let choice = Choice::ALL[(*number as usize).min(Choice::ALL.len() - 1)];
+                let choice = Choice::ALL[*number as usize];
                 *target = choice.speed(*target, limit);
                 driven(Longitudinal::Speed(*target), choice.lateral())
             }

@@ -1,6 +1,6 @@
 //! Many worlds, stepped together.
 
-use laneweave::{Event, Fault, FaultKind, Simulation, Template, VehicleId};
+use laneweave::{Event, Fault, FaultKind, Fleet, Simulation, Template, VehicleId};
 use laneweave_pool::Pool;
 use serde::{Deserialize, Serialize};
 
@@ -81,6 +81,9 @@ impl Batch {
         let [decision, limit, warmup] = task.steps(template.scenario().run.step_s)?;
         if seeds.is_empty() {
             return Err(wrong("seeds", "there are none", "give one for each world"));
+        }
+        if !(1..=Fleet::MOST_THREADS).contains(&threads) {
+            return Err(wrong("threads", &format!("{threads} threads"), "choose 1 to 256"));
         }
         let pool = Pool::new(threads)
             .map_err(|it| wrong("threads", &it.to_string(), "choose fewer, or close other programs"))?;
@@ -189,14 +192,17 @@ impl Batch {
     /// [numbers](crate::Action::numbers) for each world.
     ///
     /// # Errors
-    /// If a slice has not the right length, if a number is not finite, or if an action cannot be carried out.
+    /// If a slice has not the right length, if a number is not finite or that of no choice, or if an action cannot be
+    /// carried out.
     pub fn act(&mut self, actions: &[f64], results: Results) -> Result<(), Fault> {
         let width = self.plan.task.action.numbers();
         self.check_length("actions", actions.len(), width)?;
         self.check(&results)?;
-        if let Some(number) = actions.iter().position(|it| !it.is_finite()) {
-            let what = format!("action {} has a number that is not finite", number / width);
-            return Err(wrong("actions", &what, "give finite numbers"));
+        if let Some((place, number)) =
+            actions.iter().enumerate().find(|it| !self.plan.task.action.takes(*it.1))
+        {
+            let what = format!("action {} has the number {number}", place / width);
+            return Err(wrong("actions", &what, self.plan.task.action.remedy()));
         }
         let autoreset = self.autoreset;
         self.each(|plan, world, number| match (world.outcome.is_over(), autoreset) {

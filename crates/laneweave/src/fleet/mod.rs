@@ -22,6 +22,9 @@ pub struct Fleet {
 }
 
 impl Fleet {
+    /// The largest number of threads, as of a simulation.
+    pub const MOST_THREADS: usize = 256;
+
     /// A simulation of `template` for each of these seeds, on `threads` threads in all.
     ///
     /// # Errors
@@ -31,14 +34,12 @@ impl Fleet {
         seeds: impl IntoIterator<Item = u64>,
         threads: usize,
     ) -> Result<Fleet, Fault> {
-        /// The largest number of threads, as of a simulation.
-        const MOST_THREADS: usize = 256;
         let simulations: Vec<Simulation> =
             seeds.into_iter().map(|it| template.spawn_on(it, 1)).collect::<Result<_, _>>()?;
         if simulations.is_empty() {
             return Err(Fault::new("fleet", "no seeds", "give one for each simulation"));
         }
-        if !(1..=MOST_THREADS).contains(&threads) {
+        if !(1..=Fleet::MOST_THREADS).contains(&threads) {
             return Err(Fault::new("fleet", format!("{threads} threads"), "choose 1 to 256"));
         }
         let unstarted = |error: io::Error| {

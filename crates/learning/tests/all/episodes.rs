@@ -161,6 +161,8 @@ fn what_cannot_be_is_refused_with_a_remedy() {
         (new(usual(), &[]), "give one for each world"),
         (new(Task { entrances: vec![12345], ..usual() }, &[1]), "name entrances"),
         (Batch::new(Vec::new(), usual(), &[1], 1).err(), "give one or more"),
+        (Batch::new(populations("ramps.osm"), short(usual()), &[1], 0).err(), "choose 1 to 256"),
+        (Batch::new(populations("ramps.osm"), short(usual()), &[1], 1_000_000).err(), "choose 1 to 256"),
         (
             Batch::new(vec![("a".into(), template("ramps.osm"))], Task { starts: 0, ..usual() }, &[1], 1)
                 .err(),
@@ -174,4 +176,8 @@ fn what_cannot_be_is_refused_with_a_remedy() {
     let mut driven = Driven::new("ramps.osm", short(usual()), &[1], 1, Autoreset::NextStep);
     let fault = driven.batch.reset(&[None], &mut [0.0]).expect_err("too few places");
     assert!(fault.to_string().contains("give it"), "{fault}");
+    for number in [5.0, -1.0, 0.5, f64::NAN] {
+        let fault = driven.refused(&[number]);
+        assert!(fault.to_string().contains("choose 0 to 4"), "{fault}");
+    }
 }

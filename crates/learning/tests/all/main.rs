@@ -3,7 +3,7 @@
 mod episodes;
 mod observations;
 
-use laneweave::{Simulation, Template};
+use laneweave::{Fault, Simulation, Template};
 use laneweave_learning::{Autoreset, Batch, Results, TERMS, Task};
 use laneweave_test_data::map;
 
@@ -56,6 +56,15 @@ impl Driven {
     }
 
     fn act(&mut self, actions: &[f64]) {
+        self.try_to_act(actions).expect("actions for all worlds");
+    }
+
+    /// Why the actions are refused.
+    fn refused(&mut self, actions: &[f64]) -> Fault {
+        self.try_to_act(actions).expect_err("they are refused")
+    }
+
+    fn try_to_act(&mut self, actions: &[f64]) -> Result<(), Fault> {
         let results = Results {
             observations: &mut self.observations,
             last_observations: &mut self.last_observations,
@@ -64,7 +73,7 @@ impl Driven {
             terminated: &mut self.terminated,
             truncated: &mut self.truncated,
         };
-        self.batch.act(actions, results).expect("actions for all worlds");
+        self.batch.act(actions, results)
     }
 
     /// What a world sees.

@@ -81,6 +81,8 @@ class VectorEnvironment(VectorEnv[Any, Any, Any]):
     ) -> tuple[Any, dict[str, Any]]:
         """Begins the next episode in all worlds, or in those of ``options["reset_mask"]``; with a seed, the first one
         of ``seed + number`` in each, or of its own."""
+        if isinstance(seed, np.integer):
+            seed = int(seed)
         super().reset(seed=seed if isinstance(seed, int) else None)
         seeds: list[int | None]
         if seed is None:
