@@ -15,9 +15,10 @@ const MISTAKE: u8 = 2;
 const UNWRITTEN: u8 = 1;
 
 /// Does what the command line `arguments` asks for, and returns the exit code. The first argument is the name of the
-/// program. Signals end a command as they end the program, from its first call on.
-pub fn command(arguments: &[OsString]) -> u8 {
-    let call = Call::new(Instant::now(), arguments);
+/// program. Signals end a command as they end the program, from its first call on. `program` is how another process of
+/// the same command begins: a program, and its first arguments.
+pub fn command(arguments: &[OsString], program: Vec<OsString>) -> u8 {
+    let call = Call::new(Instant::now(), arguments, program);
     refuse_large_files();
     let done = Cli::read(arguments).map_or_else(|error| help(error, arguments), |cli| cli.execute(&call));
     done.unwrap_or_else(|fault| {

@@ -7,6 +7,7 @@
 //! * `map.rs`, `style.rs` and `view.rs` maps, styles, and the page in the browser
 //! * `task.rs` long work, which shows its progress and can be interrupted
 //! * `run.rs` and `studies.rs` runs, comparisons, fits and replays, with all their files
+//! * `sweep.rs` many variants of a scenario, on any executor
 //! * `learning.rs` many worlds in which a program learns
 //! * `command.rs` the command `laneweave`
 //! * `values.rs` values between the two languages
@@ -23,6 +24,7 @@ mod run;
 mod simulation;
 mod studies;
 mod style;
+mod sweep;
 mod task;
 mod template;
 mod values;
@@ -39,6 +41,8 @@ fn _laneweave(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<template::Template>()?;
     module.add_class::<fleet::Fleet>()?;
     module.add_class::<learning::Batch>()?;
+    module.add_class::<sweep::SweepFolder>()?;
+    module.add_class::<sweep::SweepWorker>()?;
     module.add_class::<map::Map>()?;
     module.add_class::<view::View>()?;
     module.add_function(wrap_pyfunction!(run::run, module)?)?;

@@ -30,6 +30,13 @@ def test_examples_of_the_book_run(monkeypatch: pytest.MonkeyPatch, tmp_path: Pat
     assert names["total"] > 100 and names["sight"][:, 0, 0].all()
 
 
+def test_the_example_of_sweeps_runs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    pytest.importorskip("pandas")
+    assert len(examples("docs/src/how-to/sweep.md")) == 1
+    assert len(run("docs/src/how-to/sweep.md")["swept"].runs()) == 4
+
+
 def test_examples_of_learning_run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(ROOT)
     pytest.importorskip("gymnasium")

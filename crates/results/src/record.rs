@@ -207,32 +207,55 @@ pub fn ended(dir: &Path) -> Result<Option<String>, Fault> {
 /// # Errors
 /// If the map, the commands or a style file cannot be read.
 pub fn fingerprint(scenario: &Scenario, origin: &Origin) -> Result<String, Fault> {
-    let mut hash = Xxh3::new();
-    hash.update(env!("CARGO_PKG_VERSION").as_bytes());
-    let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
-    bare.commands = None;
-    replayed_mut(&mut bare).for_each(|it| *it = PathBuf::new());
-    bare.output = Output::default();
-    bare.run.threads = None;
-    bare.map_options.max_size_mb = None;
-    let toml = toml::to_string(&bare).map_err(|error| Fault::bug(SCENARIO, error))?;
-    hash.update(toml.as_bytes());
-    for (text, weight) in style_texts(scenario, origin)? {
-        hash.update(text.as_bytes());
-        hash.update(&weight.to_le_bytes());
+    Fingerprints::default().of(scenario, origin)
+}
+
+/// Fingerprints of many scenarios: each file is read once.
+#[derive(Debug, Default)]
+pub struct Fingerprints {
+    /// The hash of each file that was read.
+    pub files: BTreeMap<PathBuf, u64>,
+}
+
+impl Fingerprints {
+    /// The [`fingerprint`] of a scenario.
+    ///
+    /// # Errors
+    /// If the map, the commands or a style file cannot be read.
+    pub fn of(&mut self, scenario: &Scenario, origin: &Origin) -> Result<String, Fault> {
+        let mut hash = Xxh3::new();
+        hash.update(env!("CARGO_PKG_VERSION").as_bytes());
+        let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
+        bare.commands = None;
+        replayed_mut(&mut bare).for_each(|it| *it = PathBuf::new());
+        bare.output = Output::default();
+        bare.run.threads = None;
+        bare.map_options.max_size_mb = None;
+        let toml = toml::to_string(&bare).map_err(|error| Fault::bug(SCENARIO, error))?;
+        hash.update(toml.as_bytes());
+        for (text, weight) in style_texts(scenario, origin)? {
+            hash.update(text.as_bytes());
+            hash.update(&weight.to_le_bytes());
+        }
+        for file in replayed_mut(&mut scenario.clone()).chain(&mut scenario.commands.clone()) {
+            hash.update(&self.of_file(file)?.to_le_bytes());
+        }
+        let map = match origin.built_in_map() {
+            Some(text) => xxh3_64(text.as_bytes()),
+            None => self.of_file(&scenario.map)?,
+        };
+        hash.update(&map.to_le_bytes());
+        Ok(format!("{:016x}", hash.digest()))
     }
-    let read = |path: &PathBuf| fs::read(path).map_err(|error| Fault::refused(path, "read", &error));
-    for file in replayed_mut(&mut scenario.clone()) {
-        hash.update(&read(file)?);
+
+    /// The hash of the file at `path`, as it was when it was first read.
+    fn of_file(&mut self, path: &Path) -> Result<u64, Fault> {
+        if let Some(known) = self.files.get(path) {
+            return Ok(*known);
+        }
+        let content = fs::read(path).map_err(|error| Fault::refused(path, "read", &error))?;
+        Ok(*self.files.entry(path.to_owned()).or_insert(xxh3_64(&content)))
     }
-    if let Some(commands) = &scenario.commands {
-        hash.update(&read(commands)?);
-    }
-    match origin.built_in_map() {
-        Some(text) => hash.update(text.as_bytes()),
-        None => hash.update(&read(&scenario.map)?),
-    }
-    Ok(format!("{:016x}", hash.digest()))
 }
 
 /// The texts of the styles of `scenario` with the bits of their weights, in the order of the texts: file names do not

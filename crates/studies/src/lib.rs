@@ -11,6 +11,7 @@ pub mod fit;
 mod parallel;
 pub mod replay;
 pub mod routes;
+pub mod sweep;
 
 pub use draws::{DrawnMeasure, Draws, PER_DRAW, draws};
-pub use parallel::in_parallel;
+pub use parallel::{in_parallel, in_parallel_while};

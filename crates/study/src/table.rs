@@ -39,6 +39,7 @@ pub mod sound;
 #[cfg(feature = "parquet")]
 mod thrift;
 
+use std::borrow::Cow;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -63,10 +64,10 @@ pub enum Kind {
 }
 
 /// A column of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Its name, with its unit by convention: `speed_mps`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The type of its cells.
     pub kind: Kind,
     /// Whether its values repeat, so that a dictionary saves space.
@@ -76,22 +77,29 @@ pub struct Column {
 impl Column {
     /// A column of floating-point numbers, most of which occur once.
     pub const fn real(name: &'static str) -> Column {
-        Column { name, kind: Kind::F64, repeats: false }
+        Column { name: Cow::Borrowed(name), kind: Kind::F64, repeats: false }
     }
 
     /// A column of integers, which repeat.
     pub const fn integer(name: &'static str) -> Column {
-        Column { name, kind: Kind::I64, repeats: true }
+        Column { name: Cow::Borrowed(name), kind: Kind::I64, repeats: true }
     }
 
     /// A column of text, which repeats.
     pub const fn text(name: &'static str) -> Column {
-        Column { name, kind: Kind::Text, repeats: true }
+        Column { name: Cow::Borrowed(name), kind: Kind::Text, repeats: true }
+    }
+
+    /// A column with a name that is known only when the program runs, whose values repeat.
+    pub const fn named(name: String, kind: Kind) -> Column {
+        Column { name: Cow::Owned(name), kind, repeats: true }
     }
 
     /// The same column with values that repeat.
-    pub const fn repeating(self) -> Column {
-        Column { repeats: true, ..self }
+    #[must_use]
+    pub const fn repeating(mut self) -> Column {
+        self.repeats = true;
+        self
     }
 }
 
@@ -241,7 +249,7 @@ pub enum TableError {
         /// The table's file.
         path: PathBuf,
         /// Name of the column.
-        column: &'static str,
+        column: String,
         /// The type of the column.
         kind: Kind,
         /// The cell.
@@ -352,7 +360,12 @@ impl TableWriter {
         let misfit = self.columns.iter().zip(cells).find(|(column, cell)| !cell.fits(column.kind));
         misfit.map_or(Ok(()), |(column, cell)| {
             let path = self.file.target().to_owned();
-            Err(TableError::Cell { path, column: column.name, kind: column.kind, cell: format!("{cell:?}") })
+            Err(TableError::Cell {
+                path,
+                column: column.name.to_string(),
+                kind: column.kind,
+                cell: format!("{cell:?}"),
+            })
         })
     }
 }

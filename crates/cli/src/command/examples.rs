@@ -125,6 +125,29 @@ Examples:
   # Two ways to follow a route
   laneweave compare maps/ramps.osm --model mobil --model mobil-lanes --seeds 3 --duration 120";
 
+pub(super) const SWEEP: &str =
+    "A plan names a scenario or a map, and which keys of it have which values:
+
+  scenario = \"maps/ramps.osm\"
+  seeds = 10                                      # or a list of them
+  [grid]                                          # all combinations
+  demand.vehicles_per_hour = [2000, 3000]
+  model = [\"mcdm\", \"mobil\"]
+  [latin_hypercube]                               # points spread evenly over ranges
+  samples = 20
+  keys.demand.trucks = [0, 0.3]
+  [[list]]                                        # rows of values
+  styles = { aggressive = 1 }
+
+A sweep that was ended goes on with the same command. Then the folder has runs.parquet, a row for each run, and variants.parquet, means with 95 % intervals.
+
+Examples:
+  laneweave sweep scenarios/sweep.toml
+  # Three parts, on as many machines that share the folder
+  laneweave sweep scenarios/sweep.toml --out shared --shard 1/3
+  laneweave sweep scenarios/sweep.toml --out shared --shard 2/3
+  laneweave sweep scenarios/sweep.toml --out shared --shard 3/3";
+
 pub(super) const REPRODUCE: &str = "The same command gives the same files, byte for byte, on any machine. Each experiment writes its words (.md), its data (.csv) and its figures (.svg).
 
 Examples:

@@ -22,6 +22,7 @@ mod shell;
 mod shown;
 mod stop;
 mod styles;
+mod sweep;
 mod tips;
 mod view;
 
@@ -49,12 +50,14 @@ pub(crate) struct Call {
     started: Instant,
     /// The command line as it was given.
     line: String,
+    /// How a process of the same command begins: a program, and its first arguments.
+    program: Vec<OsString>,
 }
 
 impl Call {
-    pub(crate) fn new(started: Instant, arguments: &[OsString]) -> Call {
+    pub(crate) fn new(started: Instant, arguments: &[OsString], program: Vec<OsString>) -> Call {
         let given = arguments.iter().skip(1).map(|it| it.to_string_lossy().into_owned());
-        Call { started, line: command_line(given) }
+        Call { started, line: command_line(given), program }
     }
 }
 
@@ -88,6 +91,9 @@ enum Command {
     /// Run scenarios with several lane-change models and seeds, and compare the results.
     #[command(after_help = examples::COMPARE)]
     Compare(compare::CompareArguments),
+    /// Run many variants of a scenario, each with several seeds, and write a table with a row for each run.
+    #[command(after_help = examples::SWEEP)]
+    Sweep(sweep::SweepArguments),
     /// Run experiments: the drivers beside published values, and the claims of the paper.
     #[command(after_help = examples::REPRODUCE)]
     Reproduce(reproduce::ReproduceArguments),
@@ -167,6 +173,7 @@ impl Cli {
             Some(Command::Explain(arguments)) => arguments.execute(),
             Some(Command::Branch(arguments)) => arguments.execute(call),
             Some(Command::Compare(arguments)) => arguments.execute(call),
+            Some(Command::Sweep(arguments)) => return arguments.execute(call),
             Some(Command::Reproduce(arguments)) => arguments.execute(),
             Some(Command::Check(arguments)) => arguments.execute(),
             Some(Command::Observe(arguments)) => arguments.execute(),

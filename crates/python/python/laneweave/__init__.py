@@ -26,6 +26,7 @@ from ._laneweave import SIGHT_COLUMNS, Fleet, Map, Simulation, Template, __versi
 from ._results import Results, run
 from ._studies import Comparison, Fit, Replay, compare, fit, replay
 from ._style import Style
+from ._sweep import Sweep, sweep, sweep_runs
 from ._view import Picture, View, picture, view
 
 __all__ = [
@@ -48,6 +49,7 @@ __all__ = [
     "StateError",
     "Style",
     "StyleError",
+    "Sweep",
     "Template",
     "View",
     "__version__",
@@ -57,5 +59,7 @@ __all__ = [
     "picture",
     "replay",
     "run",
+    "sweep",
+    "sweep_runs",
     "view",
 ]

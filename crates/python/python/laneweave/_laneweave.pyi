@@ -403,8 +403,27 @@ def view_files(
 ) -> View:
     """A view of files; see laneweave.view."""
 
-def command(arguments: list[str]) -> int:
-    """Does what a command line asks for, and returns the exit code. The first argument is the name of the program."""
+def command(arguments: list[str], program: list[str]) -> int:
+    """Does what a command line asks for, and returns the exit code. The first argument is the name of the program.
+
+    Another process of the command begins with ``program``.
+    """
+
+class SweepFolder:
+    """A sweep in its folder; see laneweave.sweep."""
+
+    def __init__(self, plan: str | PathLike[str] | dict[str, Any], out: str | PathLike[str]) -> None: ...
+    @property
+    def run_count(self) -> int: ...
+    def open_keys(self, shard: str | None = None) -> list[str]: ...
+    def run(self, keys: list[str], program: list[str], workers: int | None, progress: Progress = None) -> None: ...
+    def finish(self) -> tuple[Path, Path, str] | None: ...
+
+class SweepWorker:
+    """Does runs of a sweep that was begun."""
+
+    def __init__(self, folder: str | PathLike[str]) -> None: ...
+    def run(self, key: str) -> None: ...
 
 def run(
     source: str | PathLike[str] | Map,

@@ -13,7 +13,7 @@ use super::folder::Folder;
 use super::names::Names;
 use crate::outcome::Summary;
 
-const COLUMNS: [Column; 17] = [
+static COLUMNS: [Column; 17] = [
     Column::real("time_s"),
     Column::text("kind"),
     Column::integer("vehicle"),

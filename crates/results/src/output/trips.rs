@@ -70,7 +70,7 @@ impl Output for Trips {
     }
 }
 
-const COLUMNS: [Column; 20] = [
+static COLUMNS: [Column; 20] = [
     Column::integer("vehicle"),
     Column::text("class"),
     Column::text("style"),

@@ -12,7 +12,7 @@ use crate::scenario::LONGEST;
 use crate::source::in_words;
 
 /// The columns of a table of commands.
-pub const COMMAND_COLUMNS: [Column; 5] = [
+pub static COMMAND_COLUMNS: [Column; 5] = [
     Column::real("time_s"),
     Column::text("target"),
     Column::integer("id"),

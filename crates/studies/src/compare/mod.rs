@@ -4,8 +4,6 @@ mod files;
 mod outcome;
 mod page;
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use laneweave::Simulation;
 use laneweave_results::About;
 use laneweave_scenario::scenario::{Origin, Scenario};
@@ -13,9 +11,10 @@ use laneweave_scenario::style::Model;
 use laneweave_scenario::{Fault, FaultKind};
 use laneweave_study::{EdieRow, Estimate, mean};
 
-use crate::parallel::in_parallel;
+use crate::parallel::in_parallel_while;
 
 pub use files::ComparisonFiles;
+pub(crate) use outcome::measure;
 pub use outcome::{MEASURES, Measure, Outcome};
 pub use page::page;
 
@@ -82,16 +81,10 @@ pub fn compare(
     let models: Vec<Model> = models.iter().enumerate().filter(is_first).map(|(_, model)| *model).collect();
     let jobs: Vec<(Model, u64)> =
         models.iter().flat_map(|model| seeds.iter().map(|seed| (*model, *seed))).collect();
-    let ended = AtomicUsize::new(0);
-    let trials = in_parallel(&jobs, threads, |(model, seed)| {
-        if !goes_on(ended.load(Ordering::Relaxed) as f64 / jobs.len() as f64) {
-            return Err(
-                Fault::new("compare", "it was interrupted", "compare again").of_kind(FaultKind::State)
-            );
-        }
-        let trial = trial(scenario, origin, *model, *seed);
-        ended.fetch_add(1, Ordering::Relaxed);
-        trial
+    let goes_on = |ended: usize| goes_on(ended as f64 / jobs.len() as f64);
+    let once = |_: &mut (), (model, seed): &(Model, u64)| trial(scenario, origin, *model, *seed);
+    let trials = in_parallel_while(&jobs, threads, goes_on, || (), once)?.ok_or_else(|| {
+        Fault::new("compare", "it was interrupted", "compare again").of_kind(FaultKind::State)
     })?;
     Ok(Comparison { about, models, trials })
 }

@@ -37,6 +37,18 @@ pub struct Outcome {
     pub completed: f64,
     /// Vehicles that wait to enter at the end.
     pub waiting_to_enter: f64,
+    /// Vehicles that entered; those on the road at the begin of the measured time count as entered.
+    pub entered: f64,
+    /// Distance driven [veh km].
+    pub veh_km: f64,
+    /// Collisions.
+    pub collisions: f64,
+    /// Other times that two vehicles began to overlap.
+    pub overlaps: f64,
+    /// Hard brakings per vehicle-kilometre.
+    pub hard_brakings: f64,
+    /// Drivers without any route left to a destination.
+    pub lost: f64,
 }
 
 /// A measure of every run.
@@ -52,7 +64,7 @@ pub struct Measure {
     pub of: fn(&Outcome) -> Option<f64>,
 }
 
-const fn measure(
+pub(crate) const fn measure(
     column: &'static str,
     title: &'static str,
     digits: usize,
@@ -133,6 +145,12 @@ impl Outcome {
             stuck: counters.stuck as f64,
             completed: counts.left as f64,
             waiting_to_enter: simulation.waiting_to_enter() as f64,
+            entered: counts.entered as f64,
+            veh_km,
+            collisions: counters.collisions as f64,
+            overlaps: counters.overlaps as f64,
+            hard_brakings: per(counters.hard_brakings, veh_km),
+            lost: counters.lost as f64,
         };
         (outcome, boxes.with_changes(simulation.time_s(), |it| it == LaneChangeKind::Discretionary))
     }

@@ -10,4 +10,5 @@ mod mutations;
 mod quick;
 mod replayed;
 mod same_entrances;
+mod sweep;
 mod weights;

@@ -18,7 +18,7 @@ impl CsvSink {
     pub(super) fn new(file: File, columns: &[Column]) -> CsvSink {
         let mut sink = CsvSink { file, buffer: Vec::with_capacity(2 * BUFFER) };
         for column in columns {
-            sink.text(column.name);
+            sink.text(&column.name);
             sink.buffer.push(b',');
         }
         sink.end_line();

@@ -135,7 +135,7 @@ fn properties(columns: &[Column], notes: &[(&str, &str)]) -> WriterProperties {
         .set_data_page_row_count_limit(PAGE)
         .set_key_value_metadata(Some(notes.collect()));
     let properties = columns.iter().fold(properties, |it, column| {
-        let name = || ColumnPath::from(column.name);
+        let name = || ColumnPath::from(&*column.name);
         match (column.kind, column.repeats) {
             // Mainly times: by their minimum and maximum a reader finds the groups with the rows that it needs.
             (Kind::F64, true) => it.set_column_statistics_enabled(name(), EnabledStatistics::Chunk),
@@ -157,7 +157,7 @@ fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
         Kind::I64 => (PhysicalType::INT64, None),
         Kind::Text => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),
     };
-    Type::primitive_type_builder(column.name, physical)
+    Type::primitive_type_builder(&column.name, physical)
         .with_repetition(Repetition::OPTIONAL)
         .with_logical_type(logical)
         .build()

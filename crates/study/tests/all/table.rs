@@ -120,7 +120,7 @@ fn assert_reads_back(row: &Row, index: usize) {
     for ((name, field), (column, cell)) in
         row.get_column_iter().zip(Trajectory::COLUMNS.iter().zip(trajectory(index).cells()))
     {
-        assert_eq!(name, column.name);
+        assert_eq!(name, &column.name);
         let is_same = match (field, cell) {
             (Field::Null, Cell::F64(value)) => value.is_nan(),
             (Field::Null, Cell::Missing) => true,
@@ -240,7 +240,7 @@ fn a_csv_row_is_the_shortest_text_that_reads_back() {
     write(&path, Format::Csv, 9).unwrap();
     let text = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    let names: Vec<&str> = Trajectory::COLUMNS.iter().map(|it| it.name).collect();
+    let names: Vec<String> = Trajectory::COLUMNS.iter().map(|it| it.name.to_string()).collect();
     assert_eq!((lines.len(), lines[0]), (10, names.join(",").as_str()));
     assert_eq!(
         lines[1], "0.0,0,car,aggressive,0,0.0,-0.1,458901.0,5428000.0,,0.0,0.0,-1.0,4.5,1.8,",

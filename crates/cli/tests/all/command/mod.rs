@@ -64,4 +64,6 @@ mod standard_output;
 mod stop;
 #[cfg(test)]
 mod styles;
+#[cfg(test)]
+mod sweep;
 mod view;
