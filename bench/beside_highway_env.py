@@ -2,7 +2,7 @@
 
 Needs the packages laneweave (a release build), gymnasium, highway-env and numpy:
 
-    python bench/beside_highway_env.py [--worlds 256] [--rounds 5] [--seconds 4]
+    OPENBLAS_NUM_THREADS=1 python bench/beside_highway_env.py [--worlds 64] [--rounds 5] [--seconds 4]
 
 Both take actions at random, and begin anew at the end of an episode. An environment step is one action; a vehicle update
 is one vehicle in one substep. The vehicles of laneweave are those on the road in each substep at the end of a step.
@@ -52,13 +52,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--environment", default="laneweave/Merge-v0")
     parser.add_argument("--beside", default="merge-v1")
-    parser.add_argument("--worlds", type=int, default=256)
+    parser.add_argument("--worlds", type=int, default=64)
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=4.0)
     asked = parser.parse_args()
     rng = np.random.default_rng(1)
     one = gymnasium.make(asked.beside)
     one.reset(seed=1)
+    config = one.unwrapped.config
+    their_substeps = config["simulation_frequency"] // config["policy_frequency"]
     many = gymnasium.make_vec(asked.environment, num_envs=asked.worlds, vectorization_mode="vector_entry_point")
     many.reset(seed=1)
     # A decision a second, in steps of 0.1 s.
@@ -75,7 +77,7 @@ def main() -> None:
         )
     best = np.median(np.array(rows), axis=0)
     print(f"median: ×{best[2] / best[0]:.0f} environment steps, ×{best[3] / best[1]:.0f} vehicle updates, per CPU second")
-    print(f"vehicles: {best[1] / best[0] / 15:.1f} in 15 substeps; {best[3] / best[2] / substeps:.1f} in {substeps} substeps")
+    print(f"vehicles: {best[1] / best[0] / their_substeps:.1f} in {their_substeps} substeps; {best[3] / best[2] / substeps:.1f} in {substeps} substeps")
 
 
 if __name__ == "__main__":
