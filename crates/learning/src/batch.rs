@@ -1,13 +1,13 @@
 //! Many worlds, stepped together.
 
-use laneweave::{Event, Fault, FaultKind, Fleet, Simulation, Template, VehicleId};
+use laneweave::{Fault, FaultKind, Fleet, LaneChange, Simulation, Template, VehicleId};
 use laneweave_pool::Pool;
 use serde::{Deserialize, Serialize};
 
 use crate::reward::TERMS;
 use crate::start::Starts;
 use crate::task::{Task, wrong};
-use crate::world::LearningWorld;
+use crate::world::{LearningWorld, Outcome};
 
 /// What all worlds share.
 pub(crate) struct Plan {
@@ -17,7 +17,7 @@ pub(crate) struct Plan {
     pub(crate) decision: u32,
     pub(crate) limit: u32,
     /// Whether worlds keep what happened in the steps of the last action.
-    pub(crate) keeps_events: bool,
+    pub(crate) keeps_changes: bool,
     /// Numbers of an observation.
     numbers: usize,
 }
@@ -43,6 +43,17 @@ pub struct Batch {
     all: Vec<u32>,
     autoreset: Autoreset,
     pool: Pool,
+}
+
+/// A world's part of what is done with all of them.
+struct Row<'r> {
+    number: usize,
+    /// What the vehicle sees now.
+    observation: &'r mut [f32],
+    /// What it saw last, if its episode has ended; it may be empty.
+    last_observation: &'r mut [f32],
+    /// What the action led to.
+    outcome: Outcome,
 }
 
 /// Where the results of an action go: one place for each world, or one row.
@@ -89,7 +100,7 @@ impl Batch {
             .map_err(|it| wrong("threads", &it.to_string(), "choose fewer, or close other programs"))?;
         let starts = Starts::new(populations, &task, warmup);
         let numbers = task.observation.numbers();
-        let plan = Plan { task, starts, decision, limit, keeps_events: false, numbers };
+        let plan = Plan { task, starts, decision, limit, keeps_changes: false, numbers };
         let worlds: Result<Vec<LearningWorld>, Fault> =
             seeds.iter().map(|it| LearningWorld::new(&plan, *it, 0)).collect();
         let all = (0..seeds.len() as u32).collect();
@@ -102,10 +113,10 @@ impl Batch {
         Batch { autoreset, ..self }
     }
 
-    /// The same, which keeps what happened in the steps of the last action.
+    /// The same, which keeps the lane changes around the egos in the steps of the last action.
     #[must_use]
-    pub fn with_events(mut self) -> Batch {
-        self.plan.keeps_events = true;
+    pub fn with_changes(mut self) -> Batch {
+        self.plan.keeps_changes = true;
         self
     }
 
@@ -157,12 +168,13 @@ impl Batch {
         self.world(number)?.copy(&self.plan)
     }
 
-    /// What happened in a world in the steps of the last action, if it [keeps](Batch::with_events) that.
+    /// The lane changes of the ego of a world, and of the drivers within [`AROUND`](crate::AROUND), in the steps of the
+    /// last action, if they are [kept](Batch::with_changes).
     ///
     /// # Errors
     /// If there are not so many worlds.
-    pub fn events(&self, number: usize) -> Result<&[Event], Fault> {
-        Ok(&self.world(number)?.events)
+    pub fn changes(&self, number: usize) -> Result<&[LaneChange], Fault> {
+        Ok(&self.world(number)?.changes)
     }
 
     fn world(&self, number: usize) -> Result<&LearningWorld, Fault> {
@@ -180,12 +192,14 @@ impl Batch {
     pub fn reset(&mut self, seeds: &[Option<Option<u64>>], observations: &mut [f32]) -> Result<(), Fault> {
         self.check_length("seeds", seeds.len(), 1)?;
         self.check_length("observations", observations.len(), self.plan.numbers)?;
-        self.each(|plan, world, number| match seeds[number] {
-            Some(seed) => world.reset(plan, seed),
-            None => Ok(()),
-        })?;
-        self.observe(observations);
-        Ok(())
+        self.each(observations, &mut [], |plan, world, row| {
+            if let Some(seed) = seeds[row.number] {
+                world.reset(plan, seed)?;
+            }
+            world.observe(plan, row.observation);
+            Ok(())
+        })
+        .map(drop)
     }
 
     /// Acts in all worlds, and simulates until the next actions are due. `actions` has a row of
@@ -205,59 +219,59 @@ impl Batch {
             return Err(wrong("actions", &what, self.plan.task.action.remedy()));
         }
         let autoreset = self.autoreset;
-        self.each(|plan, world, number| match (world.outcome.is_over(), autoreset) {
-            (true, Autoreset::Disabled) => Ok(()),
-            (true, _) => world.reset(plan, None),
-            (false, _) => world.act(plan, &actions[number * width..][..width]),
-        })?;
-        self.write(results)
-    }
-
-    /// Writes the results of the last action.
-    fn write(&mut self, results: Results) -> Result<(), Fault> {
-        let numbers = self.plan.numbers;
-        for (number, world) in self.worlds.iter_mut().enumerate() {
-            let outcome = world.outcome;
-            results.rewards[number] = self.plan.task.rewards.of(&outcome.terms);
+        let act = |plan: &Plan, world: &mut LearningWorld, row: &mut Row| {
+            match (world.outcome.is_over(), autoreset) {
+                (true, Autoreset::Disabled) => {}
+                (true, _) => world.reset(plan, None)?,
+                (false, _) => world.act(plan, &actions[row.number * width..][..width])?,
+            }
+            row.outcome = world.outcome;
+            if row.outcome.is_over() && autoreset == Autoreset::SameStep {
+                world.observe(plan, row.last_observation);
+                world.reset(plan, None)?;
+            }
+            world.observe(plan, row.observation);
+            Ok(())
+        };
+        let rewards = self.plan.task.rewards;
+        for (number, outcome) in
+            self.each(results.observations, results.last_observations, act)?.iter().enumerate()
+        {
+            results.rewards[number] = rewards.of(&outcome.terms);
             results.terms[number * TERMS.len()..][..TERMS.len()].copy_from_slice(&outcome.terms.numbers());
             (results.terminated[number], results.truncated[number]) =
                 (outcome.is_terminated, outcome.is_truncated);
-            if outcome.is_over() && self.autoreset == Autoreset::SameStep {
-                world.observe(&self.plan, &mut results.last_observations[number * numbers..][..numbers]);
-                world.reset(&self.plan, None)?;
-            }
         }
-        self.observe(results.observations);
         Ok(())
     }
 
-    fn observe(&mut self, observations: &mut [f32]) {
-        let rows = observations.chunks_exact_mut(self.plan.numbers.max(1));
-        self.worlds.iter_mut().zip(rows).for_each(|(world, row)| world.observe(&self.plan, row));
-    }
-
-    /// Does `work` with each world and its number, on all threads.
+    /// Does `work` with each world and its row of the observations, on all threads. Returns the outcomes.
     ///
     /// # Errors
     /// The first one by number.
     fn each(
         &mut self,
-        work: impl Fn(&Plan, &mut LearningWorld, usize) -> Result<(), Fault> + Sync,
-    ) -> Result<(), Fault> {
+        observations: &mut [f32],
+        last_observations: &mut [f32],
+        work: impl Fn(&Plan, &mut LearningWorld, &mut Row) -> Result<(), Fault> + Sync,
+    ) -> Result<Vec<Outcome>, Fault> {
         let Batch { plan, worlds, all, pool, .. } = self;
+        let mut last = last_observations.chunks_exact_mut(plan.numbers);
+        let rows = observations.chunks_exact_mut(plan.numbers).enumerate().map(|(number, observation)| {
+            let last_observation = last.next().unwrap_or_default();
+            (Row { number, observation, last_observation, outcome: Outcome::NOTHING }, Ok(()))
+        });
+        let mut rows: Vec<(Row, Result<(), Fault>)> = rows.collect();
         let mut own = vec![(); pool.threads()];
-        let mut done: Vec<(usize, Result<(), Fault>)> = (0..worlds.len()).map(|it| (it, Ok(()))).collect();
-        let act =
-            |world: &mut LearningWorld, (): &mut (), _, (number, done): &mut (usize, Result<(), Fault>)| {
-                *done = work(plan, world, *number);
-            };
-        pool.look_then_act(&mut own, worlds, &mut done, all, |_, (), _, _| (), act);
-        done.into_iter()
-            .find_map(|(number, it)| {
-                let fault = it.err()?;
-                Some(Fault { place: format!("world {number}: {}", fault.place), ..fault })
-            })
-            .map_or(Ok(()), Err)
+        let act = |world: &mut LearningWorld, (): &mut (), _, (row, done): &mut (Row, Result<(), Fault>)| {
+            *done = work(plan, world, row);
+        };
+        pool.look_then_act(&mut own, worlds, &mut rows, all, |_, (), _, _| (), act);
+        let outcome = |(row, done): (Row, Result<(), Fault>)| match done {
+            Ok(()) => Ok(row.outcome),
+            Err(it) => Err(Fault { place: format!("world {}: {}", row.number, it.place), ..it }),
+        };
+        rows.into_iter().map(outcome).collect()
     }
 
     fn check(&self, results: &Results) -> Result<(), Fault> {

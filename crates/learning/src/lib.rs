@@ -22,3 +22,4 @@ pub use observation::{
 };
 pub use reward::{Rewards, TERMS};
 pub use task::Task;
+pub use world::AROUND;

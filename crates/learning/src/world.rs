@@ -1,12 +1,15 @@
 //! One world, in which a program drives one vehicle from episode to episode.
 
-use laneweave::{Control, Event, Fault, Simulation, VehicleId};
+use laneweave::{Control, Event, Fault, LaneChange, Simulation, VehicleId};
 
 use crate::action::Asked;
 use crate::batch::Plan;
 use crate::observation::Memory;
 use crate::reward::Rewards;
 use crate::start::StartNumber;
+
+/// Drivers so near are around the ego [m].
+pub const AROUND: f64 = 100.0;
 
 /// One world.
 pub(crate) struct LearningWorld {
@@ -23,8 +26,8 @@ pub(crate) struct LearningWorld {
     is_changing: bool,
     /// What the last action led to.
     pub(crate) outcome: Outcome,
-    /// What happened in the steps of the last action, if that is wanted.
-    pub(crate) events: Vec<Event>,
+    /// The lane changes of the ego and of the drivers around in the steps of the last action, if they are wanted.
+    pub(crate) changes: Vec<LaneChange>,
     memory: Memory,
 }
 
@@ -39,7 +42,8 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    const NOTHING: Outcome = Outcome { terms: Rewards::NOTHING, is_terminated: false, is_truncated: false };
+    pub(crate) const NOTHING: Outcome =
+        Outcome { terms: Rewards::NOTHING, is_terminated: false, is_truncated: false };
 
     /// Whether the episode is over.
     pub(crate) fn is_over(&self) -> bool {
@@ -67,7 +71,7 @@ impl LearningWorld {
             target,
             is_changing: false,
             outcome: Outcome::NOTHING,
-            events: Vec::new(),
+            changes: Vec::new(),
             memory: Memory::default(),
         })
     }
@@ -102,7 +106,7 @@ impl LearningWorld {
     /// If the action cannot be carried out.
     pub(crate) fn act(&mut self, plan: &Plan, numbers: &[f64]) -> Result<(), Fault> {
         self.outcome = Outcome::NOTHING;
-        self.events.clear();
+        self.changes.clear();
         let share = 1.0 / f64::from(plan.decision);
         let Some(asked) = self.asked(plan, numbers) else { return Ok(()) };
         if let Asked::Control(control) = asked {
@@ -156,8 +160,21 @@ impl LearningWorld {
             None => *is_terminated = true,
         }
         *is_truncated = !*is_terminated && self.steps >= plan.limit;
-        if plan.keeps_events {
-            self.events.extend(events);
+        if plan.keeps_changes {
+            self.keep_changes(events);
+        }
+    }
+
+    /// Keeps the lane changes around the ego among these events.
+    fn keep_changes(&mut self, events: Vec<Event>) {
+        let Some(ego) = self.simulation.view(self.ego) else { return };
+        let here = ego.pose().at;
+        for event in events {
+            let Event::LaneChange(change) = event else { continue };
+            let there = self.simulation.view(change.vehicle).map(|it| it.pose().at);
+            if there.is_some_and(|it| (it.x - here.x).hypot(it.y - here.y) <= AROUND) {
+                self.changes.push(change);
+            }
         }
     }
 

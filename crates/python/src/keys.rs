@@ -16,7 +16,7 @@ use crate::values::given;
 
 /// Keys that are so common that they need no table.
 const SHORT: [(&str, &str); 8] = [
-    ("vehicles_per_hour", "demand"),
+    (TOTAL, "demand"),
     ("trucks", "demand"),
     ("seed", "run"),
     ("drivers_seed", "run"),
@@ -25,6 +25,8 @@ const SHORT: [(&str, &str); 8] = [
     ("step_s", "run"),
     ("threads", "run"),
 ];
+/// The one of them that replaces all demands, unless these are given, too.
+const TOTAL: &str = "vehicles_per_hour";
 /// The table of styles, which is given as a whole: its keys are names.
 const STYLES: &str = "styles";
 /// The table with the folder of results.
@@ -144,6 +146,11 @@ impl Keys {
     /// If a key is unknown, or its value of another kind.
     pub(crate) fn put(self, scenario: &Scenario, mut origin: Origin) -> Result<(Scenario, Origin), Failure> {
         let mut all = serde_json::to_value(scenario).map_err(|it| Fault::bug("scenario", it))?;
+        if self.values.contains_key(TOTAL) {
+            // As the option --demand of the command: beside these the total may mean nothing.
+            all["demand"]["entrances"] = Value::Object(Table::new());
+            all["demand"]["od"] = Value::Array(Vec::new());
+        }
         for (key, value) in self.values {
             let short = SHORT.iter().find(|it| it.0 == key);
             let known = all.as_object().into_iter().flat_map(|it| it.keys().map(String::as_str));

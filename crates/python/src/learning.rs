@@ -57,7 +57,7 @@ fn populations(asked: Vec<(String, Asked)>) -> Result<(Named, Arc<Surroundings>)
 impl Batch {
     /// `sources` are keyword arguments by the name of a population.
     #[new]
-    #[pyo3(signature = (source, populations, task, seeds, threads = 1, autoreset = "next_step", events = false))]
+    #[pyo3(signature = (source, populations, task, seeds, threads = 1, autoreset = "next_step", changes = false))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn new(
         py: Python<'_>,
@@ -67,7 +67,7 @@ impl Batch {
         seeds: Vec<u64>,
         threads: usize,
         autoreset: &str,
-        events: bool,
+        changes: bool,
     ) -> PyResult<Batch> {
         let task = given("task", task)?;
         let autoreset: Autoreset = named("autoreset", autoreset).map_err(|it| it.raise(py))?;
@@ -80,8 +80,8 @@ impl Batch {
             let (templates, around) = self::populations(asked)?;
             let mut batch =
                 laneweave_learning::Batch::new(templates, task, &seeds, threads)?.with_autoreset(autoreset);
-            if events {
-                batch = batch.with_events();
+            if changes {
+                batch = batch.with_changes();
             }
             let parts = batch.task().observation.parts();
             let populations = batch.populations().map(str::to_owned).collect();
@@ -163,10 +163,10 @@ impl Batch {
         self.with(py, |it| Ok(it.act(&actions, results)?))
     }
 
-    /// What happened in a world in the steps of the last action, if it keeps that.
-    fn events(&self, py: Python<'_>, number: usize) -> PyResult<Py<PyAny>> {
-        let events = self.with(py, |it| Ok(it.events(number)?.to_vec()))?;
-        to_python(py, &events)
+    /// The lane changes around the ego of a world in the steps of the last action, if it keeps them.
+    fn changes(&self, py: Python<'_>, number: usize) -> PyResult<Py<PyAny>> {
+        let changes = self.with(py, |it| Ok(it.changes(number)?.to_vec()))?;
+        to_python(py, &changes)
     }
 
     /// The vehicle that the program drives in a world.

@@ -34,7 +34,7 @@ def test_the_example_of_sweeps_runs(monkeypatch: pytest.MonkeyPatch, tmp_path: P
     monkeypatch.chdir(tmp_path)
     pytest.importorskip("pandas")
     assert len(examples("docs/src/how-to/sweep.md")) == 1
-    assert len(run("docs/src/how-to/sweep.md")["swept"].runs()) == 4
+    assert len(run("docs/src/how-to/sweep.md")["swept"].runs()) == 10
 
 
 def test_examples_of_learning_run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -77,6 +77,30 @@ def test_make_vec_gives_worlds_without_a_loop() -> None:
     assert isinstance(environment.unwrapped, laneweave.gym.VectorEnvironment)
     observations, _ = environment.reset(seed=1)
     assert observations.shape == environment.observation_space.shape
+    other = gymnasium.make_vec("laneweave/Merge-v0", num_envs=4, threads=2, autoreset_mode="SameStep")
+    assert other.unwrapped.mode is gymnasium.vector.AutoresetMode.SAME_STEP  # type: ignore[attr-defined]
+    assert np.array_equal(other.reset(seed=1)[0], observations)
+
+
+def test_what_is_given_is_put_into_what_an_environment_has(merge: Path) -> None:
+    def made(**keys: Any) -> Any:
+        return gymnasium.make("laneweave/Merge-v0", **keys).unwrapped
+
+    own = made().worlds.task
+    assert own["entrances"] == [20]
+    assert made(task={"decision_s": 0.5}).worlds.task == {**own, "decision_s": 0.5}
+    many = gymnasium.make_vec("laneweave/Merge-v0", num_envs=2, task={"limit_s": 30.0})
+    assert many.unwrapped.worlds.task == {**own, "limit_s": 30.0}  # type: ignore[attr-defined]
+
+    def vehicles(environment: Any) -> int:
+        environment.reset(seed=1)
+        return len(environment.simulation().vehicles())
+
+    usual, trucks = vehicles(made()), vehicles(made(demand={"trucks": 0.5}))
+    assert vehicles(made(vehicles_per_hour=300)) < usual / 2 < vehicles(made(vehicles_per_hour=4500))
+    assert trucks > usual / 2
+    few = lw.Simulation(merge, demand={"entrances": {"1": 3000}}, vehicles_per_hour=10, duration_s=300)
+    assert few.scenario["demand"]["entrances"] == {"1": 3000}
 
 
 def test_reasons_say_why_drivers_around_changed_lanes(merge: Path) -> None:

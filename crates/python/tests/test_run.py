@@ -60,7 +60,7 @@ def test_a_run_ends_as_a_simulation_does(ramps: Path, tmp_path: Path) -> None:
         ({"demand": {"trucks": 3}}, lw.ScenarioError, "choose 0 to 1"),
         ({"demand": {"truks": 0.3}}, lw.ScenarioError, 'did you mean "trucks"'),
         ({"styles": {"agressive": 1}}, lw.StyleError, 'did you mean "aggressive"'),
-        ({"seed": "one"}, lw.ScenarioError, "invalid type"),
+        ({"seed": "one"}, lw.ScenarioError, "a whole number is expected"),
         ({"seed": object()}, TypeError, "seed: the type object"),
         ({"seed": ENDLESS}, TypeError, "seed: it is too deep"),
         ({"vehicles_per_hour": float("nan")}, TypeError, "vehicles_per_hour: it is no finite number"),

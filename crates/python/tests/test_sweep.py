@@ -101,6 +101,8 @@ def test_wrong_plans_are_refused_before_anything_runs(tmp_path: Path) -> None:
         lw.sweep(PLAN, tmp_path / "out", shard="3/2")
     with pytest.raises(ValueError, match="workers"):
         lw.sweep(PLAN, tmp_path / "out", workers=1, executor=futures.ThreadPoolExecutor(1))
+    with pytest.raises(TypeError, match="executor"):
+        lw.sweep(PLAN, tmp_path / "out", executor=4)  # type: ignore[arg-type]
     with pytest.raises(lw.StateError, match="another plan"):
         lw.sweep({**PLAN, "seeds": 4}, tmp_path / "out")
     with pytest.raises(lw.NotFoundError, match="no sweep"):

@@ -126,7 +126,39 @@ pub fn in_words(message: &str) -> Option<(String, String)> {
         return Some((format!("the key {name:?} is missing"), remedy.into()));
     }
     let is_of_value = message.starts_with("invalid type") || message.starts_with("invalid value");
-    is_of_value.then(|| (message.replace('\n', ", "), "correct the value".into()))
+    is_of_value.then(|| {
+        let what = of_types(message).unwrap_or_else(|| message.replace('\n', ", "));
+        (what, "correct the value".into())
+    })
+}
+
+/// A message of serde on a value of another type, in words of users.
+fn of_types(message: &str) -> Option<String> {
+    let (found, expected) = message.strip_prefix("invalid type: ")?.rsplit_once(", expected ")?;
+    let found = match found.split_once(' ') {
+        Some(("string", text)) => format!("the text {text}"),
+        Some(("integer" | "boolean", value)) => value.replace('`', ""),
+        Some(("floating", value)) => value.trim_start_matches("point ").replace('`', ""),
+        Some(("unit", "variant")) => "a name only".into(),
+        _ => match found {
+            "sequence" => "a list".into(),
+            "map" => "a table".into(),
+            "null" => "nothing".into(),
+            other => other.to_owned(),
+        },
+    };
+    let expected = match expected {
+        "f64" | "f32" => "a number".into(),
+        "u64" | "u32" | "usize" | "i64" | "i32" | "a nonzero usize" => "a whole number".into(),
+        "a string" | "string" => "a text".into(),
+        "a boolean" => "true or false".into(),
+        "a sequence" => "a list".into(),
+        "a map" | "newtype variant" => "a table".into(),
+        "path string" => "a path".into(),
+        other if other.starts_with("struct ") => "a table".into(),
+        other => other.replace("an array of length", "a list of length"),
+    };
+    Some(format!("this is {found}, but {expected} is expected"))
 }
 
 /// The position of a key of `table`, and its value.
@@ -164,6 +196,25 @@ mod tests {
         assert_eq!(source.place(&["a", "od", "1", "from"]), "a.toml:4:1");
         assert_eq!(source.place(&["b", "list", "1"]), "a.toml:7:2");
         assert_eq!(source.place(&["b", "list", "2"]), "a.toml:6:1");
+    }
+
+    #[test]
+    fn a_value_of_another_type_is_told_in_words_of_users() {
+        let cases = [
+            (
+                "invalid type: string \"long\", expected f64",
+                "this is the text \"long\", but a number is expected",
+            ),
+            ("invalid type: sequence, expected struct Demand", "this is a list, but a table is expected"),
+            (
+                "invalid type: floating point `6.5`, expected u64",
+                "this is 6.5, but a whole number is expected",
+            ),
+            ("invalid type: boolean `true`, expected a map", "this is true, but a table is expected"),
+        ];
+        for (message, expected) in cases {
+            assert_eq!(in_words(message).map(|it| it.0).as_deref(), Some(expected));
+        }
     }
 
     #[test]

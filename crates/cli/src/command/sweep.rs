@@ -52,7 +52,10 @@ impl SweepArguments {
         let cores = available_parallelism().map_or(1, NonZero::get);
         let workers = self.workers.unwrap_or(cores);
         let stop = Stop::listen()?;
-        let Some(sweep) = self.sweep(workers, &stop)? else { return Ok(stop.code()) };
+        let Some(sweep) = self.sweep(workers, &stop)? else {
+            complain(format_args!("nothing has run"));
+            return Ok(stop.code());
+        };
         let shard = self.shard.unwrap_or_default();
         let keys = sweep.open_keys(shard)?;
         let program = [&call.program[..], &["sweep".into(), WORKER.into()]].concat();
@@ -78,7 +81,13 @@ impl SweepArguments {
             return Sweep::begun(&self.input).map(Some);
         }
         let out = self.out.as_deref().unwrap_or(Path::new("sweep"));
-        Sweep::begin(&self.input, out, threads, |_| !stop.is_raised())
+        let shown = (!self.quiet).then(|| ShareDone::of("making variants ready"));
+        let sweep = Sweep::begin(&self.input, out, threads, |share| {
+            shown.iter().for_each(|it| it.show(share));
+            !stop.is_raised()
+        });
+        shown.into_iter().for_each(ShareDone::clear);
+        sweep
     }
 
     /// Writes the tables, or says what is left to do.

@@ -37,6 +37,20 @@ fn a_simulation_drives_like_the_world_of_its_scenario_and_counts_from_the_end_of
 }
 
 #[test]
+fn a_vehicle_is_found_by_its_id_however_many_were_asked_for_since_the_last_step() {
+    let mut simulation = traffic("ramps.osm", 4000.0);
+    for _ in 0..2 {
+        let all: Vec<_> = simulation.views().map(|it| (it.id(), it.spot)).collect();
+        assert!(all.len() > 50);
+        for (id, spot) in all {
+            assert_eq!(simulation.view(id).map(|it| it.spot), Some(spot));
+            assert!(simulation.view(laneweave::VehicleId::MAX).is_none());
+        }
+        simulation.advance();
+    }
+}
+
+#[test]
 fn vehicles_are_the_same_one_by_one_by_lanelet_and_in_columns() {
     let mut between_lanes = 0;
     for (map, demand) in [("ramps.osm", 4000.0), ("town.osm", 4000.0), ("grid.osm", 2000.0)] {

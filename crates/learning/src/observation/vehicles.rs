@@ -28,6 +28,8 @@ pub(super) const AHEAD: f64 = 100.0;
 pub(super) const LEFT: f64 = 10.0;
 pub(super) const SPEED: f64 = 40.0;
 const LENGTH: f64 = 20.0;
+/// The centre of a vehicle is at most so far from its front on the centre line of its lane [m].
+const NEAR: f64 = 30.0;
 const WIDTH: f64 = 3.0;
 
 /// A vehicle near another one.
@@ -105,7 +107,13 @@ pub(super) fn write(
 ) {
     let seen = &mut memory.seen;
     seen.clear();
-    let others = simulation.views().filter(|it| it.id() != ego.id());
+    // The front on the centre line takes less time than the centre between two lanes, and is near it.
+    let is_near = |it: &Vehicle| {
+        let front = simulation.network().chain(it.spot.chain).centre.at(it.x());
+        let [ahead, left] = frame.local(front.x, front.y);
+        it.is_on_its_own_path() || ahead.hypot(left) <= AHEAD + NEAR
+    };
+    let others = simulation.views().filter(|it| it.id() != ego.id() && is_near(it));
     seen.extend(others.map(|it| frame.seen(&it)).filter(|it| it.distance <= AHEAD));
     seen.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
     for (place, seen) in numbers.chunks_exact_mut(VEHICLE_COLUMNS.len()).zip(seen.iter().take(nearest)) {

@@ -221,7 +221,7 @@ class Batch:
         seeds: list[int],
         threads: int = 1,
         autoreset: str = "next_step",
-        events: bool = False,
+        changes: bool = False,
     ) -> Self: ...
     @property
     def parts(self) -> list[dict[str, Any]]:
@@ -250,8 +250,8 @@ class Batch:
     ) -> None:
         """Acts in all worlds, and fills the arrays."""
 
-    def events(self, number: int) -> list[dict[str, Any]]:
-        """What happened in a world in the steps of the last action, if it keeps that."""
+    def changes(self, number: int) -> list[dict[str, Any]]:
+        """The lane changes around the ego of a world in the steps of the last action, if it keeps them."""
 
     def ego(self, number: int) -> int:
         """The vehicle that the program drives in a world."""

@@ -118,6 +118,8 @@ def sweep(
     """
     if executor is not None and workers is not None:
         raise ValueError("workers: the executor has its own workers; leave it out")
+    if executor is not None and not hasattr(executor, "submit") and not hasattr(executor, "run"):
+        raise TypeError(f"executor: {executor!r} is neither a concurrent.futures.Executor nor of laneweave.executors")
     begun = _laneweave.SweepFolder(plan, out)
     keys = begun.open_keys(shard)
     folder = Path(out).absolute()

@@ -64,7 +64,7 @@ pub struct Sweep {
 impl Sweep {
     /// Begins the sweep of the plan in the file at `plan` in the folder `out`, or goes on with it if it was begun
     /// there. Before a sweep begins, each variant is made ready to run, by as many threads as `threads`; `goes_on` is
-    /// told how many are ready. Returns `None` if it says no.
+    /// told the share that is ready. Returns `None` if it says no.
     ///
     /// # Errors
     /// If the plan, a scenario of it or the folder cannot be used. Nothing has run then.
@@ -72,7 +72,7 @@ impl Sweep {
         plan: &Path,
         out: &Path,
         threads: usize,
-        goes_on: impl Fn(usize) -> bool + Sync,
+        goes_on: impl Fn(f64) -> bool + Sync,
     ) -> Result<Option<Sweep>, Fault> {
         Sweep::begin_source(Source::read(plan)?, out, threads, goes_on)
     }
@@ -86,7 +86,7 @@ impl Sweep {
         path: &Path,
         out: &Path,
         threads: usize,
-        goes_on: impl Fn(usize) -> bool + Sync,
+        goes_on: impl Fn(f64) -> bool + Sync,
     ) -> Result<Option<Sweep>, Fault> {
         let source = Source { path: path.to_owned(), text: text.to_owned() };
         Sweep::begin_source(source, out, threads, goes_on)
@@ -96,7 +96,7 @@ impl Sweep {
         source: Source,
         out: &Path,
         threads: usize,
-        goes_on: impl Fn(usize) -> bool + Sync,
+        goes_on: impl Fn(f64) -> bool + Sync,
     ) -> Result<Option<Sweep>, Fault> {
         let plan = Plan::of(&source)?;
         let base = Origin::open(&plan.scenario)?;
@@ -171,12 +171,14 @@ impl Sweep {
     }
 
     /// Makes each variant ready to run. Returns whether `goes_on` said so until the end.
-    fn check(&self, threads: usize, goes_on: impl Fn(usize) -> bool + Sync) -> Result<bool, Fault> {
+    fn check(&self, threads: usize, goes_on: impl Fn(f64) -> bool + Sync) -> Result<bool, Fault> {
         let check = |(): &mut (), variant: &Variant| {
             let (scenario, origin) = variant.scenario((&self.base.0, &self.base.1), self.plan.seeds[0])?;
             Simulation::from_scenario(&scenario, &origin).map(drop)
         };
-        Ok(in_parallel_while(&self.plan.variants, threads, goes_on, || (), check)?.is_some())
+        let variants = &self.plan.variants;
+        let goes_on = |ready: usize| goes_on(ready as f64 / variants.len() as f64);
+        Ok(in_parallel_while(variants, threads, goes_on, || (), check)?.is_some())
     }
 
     /// All runs: by variant, and by seed.

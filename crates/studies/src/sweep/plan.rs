@@ -327,6 +327,10 @@ mod tests {
                 "plan.toml:3:1: the key model is given twice; leave it out here, or in the other table",
             ),
             (
+                "[grid]\ndemand = [{ trucks = 0.1 }]\n[[list]]\ndemand.trucks = 0.2",
+                "plan.toml:3:1: the keys demand.trucks and demand both say what one of them is; leave it out here, or in the other table",
+            ),
+            (
                 "[latin_hypercube]\nsamples = 3\nkeys.demand.trucks = [0.3, 0]",
                 "plan.toml:4:13: this is no range of numbers; write [lowest, highest], such as [0, 0.3]",
             ),

@@ -139,11 +139,18 @@ impl Variant {
         Variant { changes: [&self.changes[..], &other.changes].concat() }
     }
 
-    /// Refuses a key with two values.
+    /// Refuses a key with two values, also as a part of a table that is given as a whole.
     pub(super) fn names_each_key_once(&self) -> Result<(), Fault> {
         for (number, change) in self.changes.iter().enumerate() {
-            if self.changes[..number].iter().any(|it| it.path == change.path) {
-                let what = format!("the key {} is given twice", change.key());
+            let overlaps =
+                |it: &&Change| it.path.starts_with(&change.path) || change.path.starts_with(&it.path);
+            if let Some(other) = self.changes[..number].iter().find(overlaps) {
+                let (key, other) = (change.key(), other.key());
+                let what = if key == other {
+                    format!("the key {key} is given twice")
+                } else {
+                    format!("the keys {other} and {key} both say what one of them is")
+                };
                 return Err(Fault::new(&change.place, what, "leave it out here, or in the other table"));
             }
         }
@@ -178,8 +185,11 @@ impl Variant {
             change.put(&mut all)?;
             varied = serde_json::from_value(all).map_err(|error| {
                 let message = error.to_string();
-                let (what, remedy) =
+                let (what, mut remedy) =
                     in_words(&message).unwrap_or_else(|| (message, "correct the value".into()));
+                if change.value.is_f64() && what.ends_with("a whole number is expected") {
+                    remedy = "this key takes whole numbers: list them in the grid".into();
+                }
                 Fault::new(&change.place, format!("{}: {what}", change.key()), remedy)
             })?;
             match &change.value {

@@ -131,7 +131,7 @@ fn values_of_a_scenario_that_make_no_sense() {
         ("[run]\nduration_s = nan\n", "s.toml:3:1: a duration of NaN s; choose 0.1 to 10000000 s"),
         (
             "[run]\nduration_s = \"long\"\n",
-            "s.toml:3:14: invalid type: string \"long\", expected f64; correct the value",
+            "s.toml:3:14: this is the text \"long\", but a number is expected; correct the value",
         ),
         (
             "[demand]\ntrucks = 0.5\nbuses = 0.25\nmotorcycles = 0.5\n",

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class Reasons:
-    """The lane changes of the drivers around the vehicle, with their reasons."""
+    """The lane changes of the ego and of the drivers within 100 m, with their reasons."""
 
     KEPT = ("vehicle", "style", "side", "kind", "is_completed", "time_s", "reasons", "utility", "threshold")
 
@@ -18,6 +18,5 @@ class Reasons:
 
     def of(self, world: int) -> list[dict[str, Any]]:
         """What drivers of a world did in the steps of the last action: each lane change with its incentives."""
-        events = self._worlds.batch.events(world)
-        changes = (it for it in events if it["event"] == "lane_change")
+        changes = self._worlds.batch.changes(world)
         return [{key: it[key] for key in self.KEPT} for it in changes]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,8 @@ from typing import Any
 import gymnasium
 
 from .._examples import example
+from ._environment import Environment
+from ._vector import VectorEnvironment
 
 _MAPS = Path(__file__).parent / "maps"
 
@@ -43,19 +46,43 @@ ENVIRONMENTS = {
 """The environments by their names."""
 
 
+def environment(name: str, task: Mapping[str, Any] | None = None, **keys: Any) -> Environment:
+    """The environment with this name: its own task and scenario, with these keys in place of theirs."""
+    return Environment(**_arguments(name, task, keys))
+
+
+def worlds(name: str, task: Mapping[str, Any] | None = None, **keys: Any) -> VectorEnvironment:
+    """Many worlds of the environment with this name."""
+    return VectorEnvironment(**_arguments(name, task, keys))
+
+
+def _arguments(name: str, task: Mapping[str, Any] | None, keys: Mapping[str, Any]) -> dict[str, Any]:
+    own = ENVIRONMENTS[name]
+    scenario = own.keys
+    if "vehicles_per_hour" in keys:
+        # The total replaces what the environment gives for single entrances.
+        scenario = {key: it for key, it in scenario.items() if key != "demand"}
+    return {"source": own.source, "task": {**own.task, **dict(task or {})}, **_merged(scenario, keys)}
+
+
+def _merged(own: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Both tables, with the given values; of tables in both, too."""
+    both = {key: _merged(own[key], given[key]) for key in own if _are_tables(own[key], given.get(key))}
+    return {**own, **given, **both}
+
+
+def _are_tables(one: Any, other: Any) -> bool:
+    return isinstance(one, Mapping) and isinstance(other, Mapping)
+
+
 def register() -> None:
     """Registers all environments; Gymnasium calls it, and it may be called again."""
-    for name, it in ENVIRONMENTS.items():
-        _register(name, {"source": it.source, "task": it.task, **it.keys})
-    _register("Scenario-v0", {})
+    here = "laneweave.gym._registered"
+    for name in ENVIRONMENTS:
+        _register(name, f"{here}:environment", f"{here}:worlds", {"name": name})
+    _register("Scenario-v0", "laneweave.gym:Environment", "laneweave.gym:VectorEnvironment", {})
 
 
-def _register(name: str, arguments: dict[str, Any]) -> None:
-    if f"laneweave/{name}" in gymnasium.registry:
-        return
-    gymnasium.register(
-        id=f"laneweave/{name}",
-        entry_point="laneweave.gym:Environment",
-        vector_entry_point="laneweave.gym:VectorEnvironment",
-        kwargs=arguments,
-    )
+def _register(name: str, one: str, many: str, arguments: dict[str, Any]) -> None:
+    if f"laneweave/{name}" not in gymnasium.registry:
+        gymnasium.register(id=f"laneweave/{name}", entry_point=one, vector_entry_point=many, kwargs=arguments)
