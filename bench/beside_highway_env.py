@@ -77,7 +77,8 @@ def main() -> None:
         )
     best = np.median(np.array(rows), axis=0)
     print(f"median: ×{best[2] / best[0]:.0f} environment steps, ×{best[3] / best[1]:.0f} vehicle updates, per CPU second")
-    print(f"vehicles: {best[1] / best[0] / their_substeps:.1f} in {their_substeps} substeps; {best[3] / best[2] / substeps:.1f} in {substeps} substeps")
+    print(f"vehicles: {best[1] / best[0] / their_substeps:.1f}, {best[3] / best[2] / substeps:.1f}")
+    print(f"substeps: {their_substeps}, {substeps}")
 
 
 if __name__ == "__main__":

@@ -104,8 +104,10 @@ impl SweepArguments {
             )),
             Err(open) => {
                 let done = format!("{folder}: {} of {all} runs are done", all - open);
-                if is_done && !shard.is_all() {
-                    return say(&format!("{done}; the part that ends last writes the tables\n"));
+                match is_done && !shard.is_all() {
+                    true if self.quiet => return Ok(()),
+                    true => return say(&format!("{done}; the part that ends last writes the tables\n")),
+                    false => {}
                 }
                 complain(format_args!("{done}; laneweave sweep {folder} goes on"));
                 Ok(())

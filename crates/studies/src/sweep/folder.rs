@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use laneweave_results::output::{json, write_whole};
+use laneweave_results::output::json;
 use laneweave_results::record::SCENARIO;
 use laneweave_scenario::{Fault, FaultKind, Source};
 use serde::{Deserialize, Serialize};
 
-use super::row::{PARTIAL, Row};
+use super::row::{PARTIAL, Row, write_shared};
 
 /// The names of the description of a sweep, and of the folder of its rows.
 const SWEEP: &str = "sweep.json";
@@ -78,7 +78,7 @@ impl Folder {
         }
         let rows = self.0.join(ROWS);
         fs::create_dir_all(&rows).map_err(|error| Fault::refused(&rows, "created", &error))?;
-        write_whole(&self.0.join(SWEEP), &json(description)?)
+        write_shared(&self.0.join(SWEEP), &json(description)?)
     }
 
     /// Refuses a sweep that is not the one that was begun here.
@@ -142,6 +142,6 @@ impl Folder {
 
     /// The path of a table.
     pub(super) fn table(&self, name: &str) -> PathBuf {
-        Path::new(&self.0).join(name)
+        self.0.join(name)
     }
 }

@@ -25,8 +25,7 @@ struct Written {
     #[serde(default)]
     grid: toml::Table,
     /// Tables of keys with a value each.
-    #[serde(default)]
-    list: Vec<toml::Table>,
+    list: Option<Vec<toml::Table>>,
     latin_hypercube: Option<WrittenCube>,
 }
 
@@ -81,18 +80,17 @@ impl Plan {
         let scenario = source.folder().join(&written.scenario);
         let seeds = written.seeds.all(source, &scenario)?;
         let reader = Reader { source };
-        let mut variants = vec![Variant::default()];
-        let has_rows = source.place(&["list"]) != source.path.display().to_string();
-        if has_rows {
-            variants = reader.rows(&written.list)?;
-        }
-        for sample in written.latin_hypercube.iter().map(|it| reader.cube(it)) {
-            variants = every(&variants, &sample?);
-        }
-        for (path, values) in reader.leaves(&["grid"], &written.grid) {
-            let choices = reader.choices(&path, values)?;
-            check_size(source, variants.len().saturating_mul(choices.len()).saturating_mul(seeds.len()))?;
-            variants = every(&variants, &choices);
+        let mut variants = match &written.list {
+            Some(rows) => reader.rows(rows)?,
+            None => vec![Variant::default()],
+        };
+        let samples = written.latin_hypercube.iter().map(|it| reader.cube(it));
+        let grid = reader.leaves(&["grid"], &written.grid);
+        let choices = grid.iter().map(|(path, values)| reader.choices(path, values));
+        for others in samples.chain(choices) {
+            let others = others?;
+            check_size(source, variants.len().saturating_mul(others.len()))?;
+            variants = every(&variants, &others);
         }
         check_size(source, variants.len().saturating_mul(seeds.len()))?;
         variants.iter().try_for_each(|it| it.names_each_key_once())?;

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -59,24 +59,36 @@ impl Row {
     /// # Errors
     /// If it cannot be written.
     pub(super) fn write(&self, path: &Path) -> Result<(), Fault> {
-        let write = || -> io::Result<()> {
-            let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |it| it.as_nanos());
-            let own = path.with_extension(format!("{}-{now}.{PARTIAL}", process::id()));
-            let mut file = fs::File::create_new(&own)?;
-            file.write_all(serde_json::to_string(self)?.as_bytes())?;
-            file.sync_data()?;
-            fs::rename(&own, path)
-        };
-        match write() {
-            Err(error) if Row::read(path).as_ref() != Some(self) => {
-                Err(Fault::refused(path, "written", &error))
-            }
-            _ => Ok(()),
+        let text = serde_json::to_string(self).map_err(|error| Fault::bug(path.display(), error))?;
+        match write_shared(path, &text) {
+            Err(_) if Row::read(path).as_ref() == Some(self) => Ok(()),
+            written => written,
         }
     }
 }
 
-/// The extension of rows that are not whole.
+/// Writes a file of a folder that several programs share, whole or not at all. All of them write the same.
+///
+/// # Errors
+/// If it cannot be written.
+pub(super) fn write_shared(path: &Path, text: &str) -> Result<(), Fault> {
+    let own = own_name(path);
+    let write = || -> io::Result<()> {
+        let mut file = fs::File::create_new(&own)?;
+        file.write_all(text.as_bytes())?;
+        file.sync_data()?;
+        fs::rename(&own, path)
+    };
+    write().map_err(|error| Fault::refused(path, "written", &error))
+}
+
+/// The path under which this program writes what will be at `path`: no other program has it.
+pub(super) fn own_name(path: &Path) -> PathBuf {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |it| it.as_nanos());
+    path.with_extension(format!("{}-{now}.{PARTIAL}", process::id()))
+}
+
+/// The extension of files that are not whole.
 pub(super) const PARTIAL: &str = "partial";
 
 #[cfg(test)]

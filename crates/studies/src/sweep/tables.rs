@@ -1,14 +1,14 @@
 //! The tables of a sweep: a row for each run, and a row for each variant with intervals over its seeds.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use laneweave_results::folder::Claim;
 use laneweave_scenario::Fault;
 use laneweave_study::{Cell, Column, Estimate, Format, Kind, TableWriter, mean};
 use serde_json::Value;
 
-use super::row::{Row, measures};
+use super::row::{Row, measures, own_name};
 use super::variant::{Change, Variant};
 use super::{Run, Sweep};
 use crate::compare::Measure;
@@ -63,17 +63,18 @@ fn changed(sweep: &Sweep) -> Vec<Changed> {
     all
 }
 
-/// Writes both tables of a sweep with these rows, in the order of its runs.
+/// Writes both tables of a sweep with these rows, in the order of its runs. Programs that end at the same time write the
+/// same, each under names of its own first.
 ///
 /// # Errors
-/// If they cannot be written, or another program is writing them.
+/// If they cannot be written.
 pub(super) fn write(sweep: &Sweep, rows: &[(&Run, Row)]) -> Result<Swept, Fault> {
-    let _claim = Claim::on(&sweep.folder.0)?;
     let changed = changed(sweep);
     let notes = [("version", env!("CARGO_PKG_VERSION")), ("plan", &sweep.text)];
     let (runs, variants) = (sweep.folder.table(RUNS), sweep.folder.table(VARIANTS));
     let columns = run_columns(&changed);
-    let mut table = TableWriter::create_with(&runs, Format::Parquet, &columns, &notes)?;
+    let own = own_name(&runs);
+    let mut table = TableWriter::create_with(&own, Format::Parquet, &columns, &notes)?;
     for (run, row) in rows {
         let texts = texts(sweep, run.variant, &changed);
         let mut cells = vec![Cell::Text(&row.key), (run.variant as i64).into()];
@@ -84,8 +85,10 @@ pub(super) fn write(sweep: &Sweep, rows: &[(&Run, Row)]) -> Result<Swept, Fault>
         table.row(&cells)?;
     }
     table.finish()?;
+    rename(&own, &runs)?;
     let columns = variant_columns(&changed);
-    let mut table = TableWriter::create_with(&variants, Format::Parquet, &columns, &notes)?;
+    let own = own_name(&variants);
+    let mut table = TableWriter::create_with(&own, Format::Parquet, &columns, &notes)?;
     let by_variant: Vec<&[(&Run, Row)]> = rows.chunk_by(|a, b| a.0.variant == b.0.variant).collect();
     for (number, rows) in by_variant.iter().enumerate() {
         let texts = texts(sweep, number, &changed);
@@ -100,7 +103,12 @@ pub(super) fn write(sweep: &Sweep, rows: &[(&Run, Row)]) -> Result<Swept, Fault>
         table.row(&cells)?;
     }
     table.finish()?;
+    rename(&own, &variants)?;
     Ok(Swept { runs, variants, text: text(sweep, &by_variant) })
+}
+
+fn rename(from: &Path, to: &Path) -> Result<(), Fault> {
+    fs::rename(from, to).map_err(|error| Fault::refused(to, "written", &error))
 }
 
 /// A measure over the runs of a variant.

@@ -67,6 +67,25 @@ fn a_part_says_what_others_have_to_do_and_the_last_one_writes_the_tables() {
 }
 
 #[test]
+fn parts_that_begin_and_end_at_the_same_time_do_not_disturb_each_other() {
+    let folder = Folder::new().with("plan.toml", &plan().replace("[60]", "[1]"));
+    for round in 0..5 {
+        let out = format!("shared{round}");
+        let part = |number: u32| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_laneweave"));
+            command.args(["sweep", "plan.toml", "--out", &out, "--workers", "1", "--quiet"]);
+            command.args(["--shard", &format!("{number}/4")]).current_dir(folder.path()).spawn().unwrap()
+        };
+        let parts: Vec<Child> = (1..=4).map(part).collect();
+        assert!(parts.into_iter().all(|mut it| it.wait().unwrap().success()));
+        let left = fs::read_dir(folder.path().join(&out)).unwrap().map(|it| it.unwrap().file_name());
+        let mut left: Vec<_> = left.collect();
+        left.sort();
+        assert_eq!(left, ["rows", "runs.parquet", "sweep.json", "variants.parquet"]);
+    }
+}
+
+#[test]
 fn what_is_wrong_with_a_plan_is_said_before_anything_runs() {
     let folder = Folder::new().with("plan.toml", "scenario = \"none.osm\"\n").with("grid.toml", "[grid]\n");
     let cases = [
