@@ -63,8 +63,8 @@ fn changed(sweep: &Sweep) -> Vec<Changed> {
     all
 }
 
-/// Writes both tables of a sweep with these rows, in the order of its runs. Programs that end at the same time write the
-/// same, each under names of its own first.
+/// Writes both tables of a sweep with these rows, in the order of its runs. Programs that end at the same time write
+/// the same, each under names of its own first.
 ///
 /// # Errors
 /// If they cannot be written.
