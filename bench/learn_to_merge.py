@@ -3,10 +3,10 @@ among all of them, beside a program that acts at random and one that keeps its l
 
 Needs the packages laneweave (a release build), gymnasium, numpy and stable-baselines3:
 
-    OMP_NUM_THREADS=1 python bench/learn_to_merge.py [--steps 300000] [--seeds 3] [--episodes 100]
+    OMP_NUM_THREADS=1 python bench/learn_to_merge.py [--steps 300000] [--seeds 3] [--episodes 100] [--delay 0]
 
-The reward is that of the environment, and the numbers of PPO are those of stable-baselines3 except where they stand
-below; neither was tuned. Episodes that judge begin in traffic that training has not seen: another ``starts_seed``, and
+The reward is that of the environment, unless ``--delay`` puts a weight on time. The numbers of PPO are those of
+stable-baselines3 except where they stand below. Neither was tuned. Episodes that judge begin in traffic that training has not seen: another ``starts_seed``, and
 the same seeds for all.
 """
 
@@ -34,12 +34,16 @@ KEEP = 1
 Policy = Callable[[np.ndarray], np.ndarray]
 
 
+REWARDS: dict[str, float] = {}
+"""Weights of the reward that are not those of the environment."""
+
+
 def worlds(population: str, count: int, starts_seed: int) -> Any:
     """Environments in which these drivers drive."""
     arguments = {
         "populations": {population: POPULATIONS[population]},
         "autoreset_mode": "SameStep",
-        "task": {"starts_seed": starts_seed},
+        "task": {"starts_seed": starts_seed, "rewards": REWARDS},
     }
     return gymnasium.make_vec("laneweave/Merge-v0", count, vectorization_mode="vector_entry_point", **arguments)
 
@@ -133,7 +137,9 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=300_000)
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--episodes", type=int, default=100)
+    parser.add_argument("--delay", type=float, default=0.0, help="the weight of the time lost")
     asked = parser.parse_args()
+    REWARDS["delay"] = asked.delay
     rng = np.random.default_rng(1)
     policies: dict[str, list[Policy]] = {
         "at random": [lambda seen: rng.integers(5, size=len(seen))],

@@ -5,8 +5,9 @@ use laneweave::{Control, Simulation};
 use serde::{Deserialize, Serialize};
 
 /// The names of the terms, in the order of [`Terms::numbers`].
-pub const TERMS: [&str; 8] = [
+pub const TERMS: [&str; 9] = [
     "speed",
+    "delay",
     "standing",
     "tailgating",
     "discomfort",
@@ -23,6 +24,9 @@ pub const TERMS: [&str; 8] = [
 pub struct Rewards {
     /// Mean speed as a share of the speed limit, at most 1.
     pub speed: f64,
+    /// The rest of it: the time lost, as a share of all time. The sum of `speed` over a way that is driven to its end
+    /// is the same however long that takes, so time has a price only here.
+    pub delay: f64,
     /// Share of the time in which the vehicle stands.
     pub standing: f64,
     /// Share of the time in which the vehicle ahead is closer than one second.
@@ -43,6 +47,7 @@ impl Default for Rewards {
     fn default() -> Rewards {
         Rewards {
             speed: 1.0,
+            delay: 0.0,
             standing: -0.5,
             tailgating: -0.5,
             discomfort: -0.5,
@@ -57,9 +62,9 @@ impl Default for Rewards {
 impl Rewards {
     /// The values in the order of [`TERMS`].
     pub(crate) fn numbers(&self) -> [f64; TERMS.len()] {
-        let Rewards { speed, standing, tailgating, discomfort, imposed_braking, .. } = *self;
+        let Rewards { speed, delay, standing, tailgating, discomfort, imposed_braking, .. } = *self;
         let Rewards { lane_change, missed_turn, collision, .. } = *self;
-        [speed, standing, tailgating, discomfort, imposed_braking, lane_change, missed_turn, collision]
+        [speed, delay, standing, tailgating, discomfort, imposed_braking, lane_change, missed_turn, collision]
     }
 
     /// The reward for `terms` with these weights.
@@ -70,6 +75,7 @@ impl Rewards {
     /// No term has a value yet.
     pub(crate) const NOTHING: Rewards = Rewards {
         speed: 0.0,
+        delay: 0.0,
         standing: 0.0,
         tailgating: 0.0,
         discomfort: 0.0,
@@ -89,7 +95,9 @@ impl Rewards {
         const FOLLOWS: f64 = 3.0;
         let (chain, x) = (vehicle.spot.chain, vehicle.x());
         let limit = simulation.network().chain(chain).limit(x);
-        self.speed += share * (vehicle.speed() / limit).min(1.0);
+        let speed = (vehicle.speed() / limit).min(1.0);
+        self.speed += share * speed;
+        self.delay += share * (1.0 - speed);
         self.discomfort += share * (f64::from(vehicle.motion.acceleration) / Control::HARDEST).powi(2);
         if vehicle.speed() < STANDS {
             self.standing += share;

@@ -24,6 +24,16 @@ fn wrong(py: Python<'_>, place: &str, what: impl Display, remedy: &str) -> PyErr
     Failure::from(Fault::new(place, what, remedy)).raise(py)
 }
 
+/// The `fault` of a plan that is no file: it has keys, but no lines. `text` has those that its place means.
+fn of_keys(fault: Fault, text: &str) -> Fault {
+    let place = fault.place.strip_prefix(PLAN).and_then(|it| it.strip_prefix(':'));
+    let number = place.and_then(|it| it.split(':').next()?.parse::<usize>().ok());
+    match number.and_then(|it| text.lines().nth(it.checked_sub(1)?)) {
+        Some(line) => Fault { place: PLAN.into(), what: format!("{line}: {}", fault.what), ..fault },
+        None => fault,
+    }
+}
+
 /// A plan: a file, or its keys.
 #[derive(FromPyObject)]
 pub(crate) enum Plan<'py> {
@@ -59,7 +69,8 @@ impl SweepFolder {
         let sweep = watched(py, None, move |task| {
             let goes_on = |_| !task.is_stopped();
             Ok(match text {
-                Some(text) => Sweep::begin_text(&text, Path::new(PLAN), &out, threads, goes_on)?,
+                Some(text) => Sweep::begin_text(&text, Path::new(PLAN), &out, threads, goes_on)
+                    .map_err(|it| of_keys(it, &text))?,
                 None => Sweep::begin(&file, &out, threads, goes_on)?,
             })
         })?;

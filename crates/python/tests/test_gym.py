@@ -132,11 +132,20 @@ def test_what_cannot_be_is_refused_with_a_remedy(merge: Path) -> None:
         laneweave.gym.Environment(merge, {"limits": 3})
     with pytest.raises(lw.ScenarioError, match="name entrances"):
         laneweave.gym.Environment(merge, {"entrances": [123]})
+    wrong: Any
+    for wrong in ({"calm": 1}, {"calm": "conservative"}, ["conservative"], {1: {"conservative": 1}}):
+        with pytest.raises(TypeError, match="give styles with their weights"):
+            laneweave.gym.Environment(merge, populations=wrong)
     with pytest.raises(ValueError, match="rgb_array"):
         laneweave.gym.Environment(merge, render_mode="human")
     environment = laneweave.gym.Environment(merge, SOON)
     with pytest.raises(lw.LaneweaveError, match="choose 0 to 4"):
         environment.step(5)
+    with pytest.raises(ValueError, match=r"they have the shape \(2,\); give \(1,\)"):
+        environment.step(np.array([1, 1]))
+    with pytest.raises(lw.ScenarioError, match='did you mean "grid"'):
+        laneweave.gym.Environment(merge, {"observation": "gird"})
+    assert "ahead_m" in laneweave.gym.Environment(merge, {"observation": "grid"}).worlds.task["observation"]["grid"]
 
 
 def test_the_maps_are_what_the_command_generates(tmp_path: Path) -> None:

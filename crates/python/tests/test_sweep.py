@@ -84,7 +84,7 @@ def test_the_command_of_the_package_does_the_same(table: bytes, tmp_path: Path) 
 def test_wrong_plans_are_refused_before_anything_runs(tmp_path: Path) -> None:
     cases: list[tuple[Any, type[Exception], str]] = [
         ({**PLAN, "grid": {"model": ["mobbil"]}}, lw.ScenarioError, "did you mean \"mobil\""),
-        ({**PLAN, "grid": {"model": []}}, lw.ScenarioError, "has no values"),
+        ({**PLAN, "grid": {"model": []}}, lw.ScenarioError, r"^plan: model = \[\]: this key of the grid has no values"),
         ({**PLAN, "sedes": 3}, lw.ScenarioError, "did you mean \"seeds\""),
         ({**PLAN, "seeds": None}, lw.ScenarioError, "plan: "),
         ({"scenario": "nothing.osm"}, lw.NotFoundError, "nothing.osm"),
@@ -99,6 +99,8 @@ def test_wrong_plans_are_refused_before_anything_runs(tmp_path: Path) -> None:
         lw.sweep(PLAN, tmp_path / "out", workers=0)
     with pytest.raises(lw.ScenarioError, match="shard"):
         lw.sweep(PLAN, tmp_path / "out", shard="3/2")
+    with pytest.raises(TypeError, match='write "1/3"'):
+        lw.sweep(PLAN, tmp_path / "out", shard=(1, 3))  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="workers"):
         lw.sweep(PLAN, tmp_path / "out", workers=1, executor=futures.ThreadPoolExecutor(1))
     with pytest.raises(TypeError, match="executor"):

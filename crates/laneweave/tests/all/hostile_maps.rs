@@ -6,7 +6,7 @@ use laneweave::generate;
 use laneweave::maps::lanelet2;
 use laneweave_scenario::scenario::{Origin, Scenario, prepare};
 use laneweave_sim::World;
-use laneweave_test_data::data;
+use laneweave_test_data::{data, size};
 
 /// The world of a map file with this seed and this demand [veh/h], or with `share` of its estimated capacity if that
 /// is less, with audit.
@@ -79,10 +79,12 @@ fn a_lane_that_narrows_to_nothing_ends_where_it_is_too_narrow() {
 #[test]
 fn a_strip_is_no_lane_and_lanes_side_by_side_are_in_nobodys_way() {
     an_hour_on(&["merge_in_strip", "strip0", "strip1", "narrow_2.6", "narrow_2.75"]);
-    let all = |name: &str| (1..=16).map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
+    // A truck that joins the narrow ones touches the lane beside as well, so others wait there: 0.950 ± 0.005 in the
+    // mean over 16 hours. The bounds are three such errors below.
+    let (seeds, share) = size().pick((4, 0.92), (16, 0.935));
+    let all = |name: &str| (1..=seeds).map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
     if let (Some(narrow), Some(wide)) = (all("narrow_2.6"), all("narrow_2.75")) {
-        // A truck that joins the narrow ones touches the lane beside as well, so others wait there: 0.950 ± 0.005.
-        assert!(narrow >= 0.935 * wide, "{narrow} against {wide}");
+        assert!(narrow >= share * wide, "{narrow} against {wide}");
     }
 }
 
@@ -106,10 +108,10 @@ fn a_short_window_for_a_lane_change_is_used() {
 #[test]
 fn a_window_of_16_m_passes_most_of_what_one_of_60_m_does_where_more_come_than_it_takes() {
     // In single hours the share varies by 0.02 about its mean. Quick starts help the longer window more.
-    const SEEDS: std::ops::RangeInclusive<u64> = 1..=20;
-    let all = |name: &str| SEEDS.map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
+    let seeds = size().pick(5, 20);
+    let all = |name: &str| (1..=seeds).map(|seed| left(name, seed, 3000.0)).sum::<Option<f64>>();
     if let (Some(short), Some(long)) = (all("window16"), all("window60")) {
-        assert!(short >= 0.8 * long && short >= 1600.0 * SEEDS.count() as f64, "{short} against {long}");
+        assert!(short >= 0.8 * long && short >= 1600.0 * seeds as f64, "{short} against {long}");
     }
 }
 

@@ -24,6 +24,7 @@ pub enum Observation {
     /// The nearest vehicles.
     Kinematics {
         /// How many of them.
+        #[serde(default = "eight")]
         nearest: usize,
     },
     /// Which cells around the vehicle are occupied.
@@ -32,9 +33,13 @@ pub enum Observation {
     Lanes(Lanes),
 }
 
+fn eight() -> usize {
+    8
+}
+
 impl Default for Observation {
     fn default() -> Observation {
-        Observation::Kinematics { nearest: 8 }
+        Observation::Kinematics { nearest: eight() }
     }
 }
 

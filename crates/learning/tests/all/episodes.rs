@@ -116,14 +116,15 @@ fn a_path_ends_where_the_action_says() {
 
 #[test]
 fn the_reward_is_the_weighted_sum_of_its_terms() {
-    let rewards = Rewards { speed: 2.0, discomfort: -3.0, ..Rewards::default() };
+    let rewards = Rewards { speed: 2.0, delay: -0.25, discomfort: -3.0, ..Rewards::default() };
     let task = short(Task { rewards, ..Task::default() });
     let mut driven = Driven::new("ramps.osm", task, &[4], 1, Autoreset::NextStep);
     driven.act(&[3.0]);
-    let weights = [2.0, -0.5, -0.5, -3.0, -1.0, -0.05, -5.0, -20.0];
+    let weights = [2.0, -0.25, -0.5, -0.5, -3.0, -1.0, -0.05, -5.0, -20.0];
     let sum: f64 = weights.iter().zip(&driven.terms).map(|(weight, term)| weight * term).sum();
     assert!((driven.rewards[0] - sum).abs() < 1e-12 && TERMS.len() == weights.len());
     assert!(driven.term(0, "speed") > 0.1 && driven.term(0, "discomfort") > 0.0);
+    assert!((driven.term(0, "speed") + driven.term(0, "delay") - 1.0).abs() < 1e-6);
 }
 
 #[test]

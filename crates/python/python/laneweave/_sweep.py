@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from concurrent import futures
 from os import PathLike
 from pathlib import Path
@@ -87,7 +87,7 @@ def sweep_runs(folder: str | PathLike[str], keys: list[str]) -> int:
 
 
 def sweep(
-    plan: str | PathLike[str] | dict[str, Any],
+    plan: str | PathLike[str] | Mapping[str, Any],
     out: str | PathLike[str],
     *,
     executor: Executor | futures.Executor | None = None,
@@ -120,7 +120,11 @@ def sweep(
         raise ValueError("workers: the executor has its own workers; leave it out")
     if executor is not None and not hasattr(executor, "submit") and not hasattr(executor, "run"):
         raise TypeError(f"executor: {executor!r} is neither a concurrent.futures.Executor nor of laneweave.executors")
-    begun = _laneweave.SweepFolder(plan, out)
+    if not isinstance(plan, (str, PathLike, Mapping)):
+        raise TypeError(f"plan: {plan!r} is neither a file nor a dict of its keys")
+    if shard is not None and not isinstance(shard, str):
+        raise TypeError(f'shard: {shard!r} is no text; write "1/3" for the first of three')
+    begun = _laneweave.SweepFolder(dict(plan) if isinstance(plan, Mapping) else plan, out)
     keys = begun.open_keys(shard)
     folder = Path(out).absolute()
     with progress_bar(progress) as show:

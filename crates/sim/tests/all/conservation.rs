@@ -101,7 +101,7 @@ fn mean(numbers: &[f64]) -> [f64; 2] {
 /// 2.0 ± 1.5 % more lane changes: we believe since drivers who wait look for a gap in every step.
 #[test]
 fn v25_half_the_step_changes_flow_by_less_than_1_and_the_rate_by_less_than_5_per_cent() {
-    let (seeds, margin) = size().pick((60, 2.0), (180, 0.0));
+    let (seeds, margin) = size().pick((24, 2.0), (180, 0.0));
     let (coarse, fine) = std::thread::scope(|scope| {
         let fine = scope.spawn(|| saturated(0.05, seeds));
         (saturated(0.1, seeds), fine.join().expect("no panic"))

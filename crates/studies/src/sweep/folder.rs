@@ -74,7 +74,7 @@ impl Folder {
         if self.0.join(SCENARIO).exists() {
             let what =
                 "this folder contains a scenario; the results of a run of it would be mixed with the sweep";
-            return Err(Fault::new(self.0.display(), what, "choose another folder with --out"));
+            return Err(Fault::new(self.0.display(), what, "choose another folder"));
         }
         let rows = self.0.join(ROWS);
         fs::create_dir_all(&rows).map_err(|error| Fault::refused(&rows, "created", &error))?;
@@ -89,7 +89,7 @@ impl Folder {
         let fault = |what: String, remedy: &str| {
             Err(Fault::new(self.0.display(), what, remedy).of_kind(FaultKind::State))
         };
-        let other = "choose another folder with --out, or delete this one";
+        let other = "choose another folder, or delete this one";
         if begun.version != asked.version {
             let Description { version, .. } = begun;
             return fault(format!("this sweep was begun by laneweave {version}"), other);
@@ -99,7 +99,7 @@ impl Folder {
         match changed {
             Some((path, _)) => {
                 let what = format!("{} has changed since this sweep was begun", path.display());
-                fault(what, "undo the change, or choose another folder with --out")
+                fault(what, "undo the change, or begin in another folder")
             }
             None => {
                 fault(format!("this folder has the sweep of another plan, {}", begun.plan.display()), other)

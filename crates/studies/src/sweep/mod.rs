@@ -20,13 +20,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use laneweave::Simulation;
+use laneweave::maps::FileKind;
 use laneweave_results::record::Fingerprints;
-use laneweave_scenario::scenario::{Origin, Scenario};
 use laneweave_scenario::{Fault, FaultKind, Source};
 use xxhash_rust::xxh3::xxh3_64;
 
 use self::folder::{Description, Folder};
-use self::plan::Plan;
+use self::plan::{Plan, no_plan};
 use self::row::Row;
 use self::variant::Variant;
 use crate::parallel::in_parallel_while;
@@ -53,7 +53,6 @@ pub struct Sweep {
     plan: Plan,
     /// The text of the plan.
     text: String,
-    base: (Scenario, Origin),
     /// The fingerprint of each variant with the first seed.
     fingerprints: Vec<String>,
     runs: Vec<Run>,
@@ -74,6 +73,9 @@ impl Sweep {
         threads: usize,
         goes_on: impl Fn(f64) -> bool + Sync,
     ) -> Result<Option<Sweep>, Fault> {
+        if let FileKind::Map(_) = FileKind::by_name(plan) {
+            return Err(no_plan(plan, "a map"));
+        }
         Sweep::begin_source(Source::read(plan)?, out, threads, goes_on)
     }
 
@@ -99,12 +101,11 @@ impl Sweep {
         goes_on: impl Fn(f64) -> bool + Sync,
     ) -> Result<Option<Sweep>, Fault> {
         let plan = Plan::of(&source)?;
-        let base = Origin::open(&plan.scenario)?;
         let folder = Folder(out.to_owned());
         let mut fingerprints = Fingerprints::default();
         let variants = plan.variants.iter().map(|it| {
-            let (scenario, origin) = it.scenario((&base.0, &base.1), plan.seeds[0])?;
-            fingerprints.of(&scenario, &origin)
+            let (scenario, origin) = plan.scenario(it, plan.seeds[0])?;
+            fingerprints.of(&scenario, &origin).map_err(|fault| plan.named(fault, &source, it))
         });
         let variants = variants.collect::<Result<Vec<String>, Fault>>()?;
         let path = std::path::absolute(&source.path);
@@ -116,7 +117,7 @@ impl Sweep {
             seeds: plan.seeds.clone(),
             variants: variants.clone(),
         };
-        let sweep = Sweep::of(folder, plan, source.text, base, variants)?;
+        let sweep = Sweep::of(folder, plan, source.text, variants)?;
         let is_new = sweep.folder.description()?.is_none();
         if is_new && !sweep.check(threads, goes_on)? {
             return Ok(None);
@@ -141,18 +142,12 @@ impl Sweep {
             let remedy = "go on with that version, or begin in another folder";
             return Err(Fault::new(out.display(), what, remedy).of_kind(FaultKind::State));
         }
-        let plan = Plan { seeds: description.seeds.clone(), ..Plan::of(&description.source())? };
-        let base = Origin::open(&plan.scenario)?;
-        Sweep::of(folder, plan, description.text, base, description.variants)
+        let mut plan = Plan::of(&description.source())?;
+        plan.seeds.clone_from(&description.seeds);
+        Sweep::of(folder, plan, description.text, description.variants)
     }
 
-    fn of(
-        folder: Folder,
-        plan: Plan,
-        text: String,
-        base: (Scenario, Origin),
-        fingerprints: Vec<String>,
-    ) -> Result<Sweep, Fault> {
+    fn of(folder: Folder, plan: Plan, text: String, fingerprints: Vec<String>) -> Result<Sweep, Fault> {
         let mut known: BTreeMap<&str, &Variant> = BTreeMap::new();
         for (variant, fingerprint) in plan.variants.iter().zip(&fingerprints) {
             if let Some(same) = known.insert(fingerprint, variant) {
@@ -167,13 +162,13 @@ impl Sweep {
         };
         let runs: Vec<Run> = fingerprints.iter().enumerate().flat_map(of_variant).collect();
         let places = runs.iter().enumerate().map(|(at, run)| (run.key.clone(), at)).collect();
-        Ok(Sweep { folder, plan, text, base, fingerprints, runs, places })
+        Ok(Sweep { folder, plan, text, fingerprints, runs, places })
     }
 
     /// Makes each variant ready to run. Returns whether `goes_on` said so until the end.
     fn check(&self, threads: usize, goes_on: impl Fn(f64) -> bool + Sync) -> Result<bool, Fault> {
         let check = |(): &mut (), variant: &Variant| {
-            let (scenario, origin) = variant.scenario((&self.base.0, &self.base.1), self.plan.seeds[0])?;
+            let (scenario, origin) = self.plan.scenario(variant, self.plan.seeds[0])?;
             Simulation::from_scenario(&scenario, &origin).map(drop)
         };
         let variants = &self.plan.variants;
@@ -286,8 +281,8 @@ impl Worker {
             simulation.reset(run.seed)?;
             return Ok(simulation);
         }
-        let Sweep { plan, base, fingerprints, folder, .. } = &*self.sweep;
-        let of = |seed: u64| plan.variants[run.variant].scenario((&base.0, &base.1), seed);
+        let Sweep { plan, fingerprints, folder, .. } = &*self.sweep;
+        let of = |seed: u64| plan.scenario(&plan.variants[run.variant], seed);
         let (scenario, origin) = of(run.seed)?;
         let simulation = Simulation::from_scenario(&scenario, &origin)?;
         // After the files were read for the simulation, so that none can change unseen.
@@ -297,7 +292,7 @@ impl Worker {
             let what = format!(
                 "the map {map}, a style, the scenario or a recording has changed since this sweep was begun"
             );
-            let remedy = "undo the change, or choose another folder with --out";
+            let remedy = "undo the change, or begin in another folder";
             return Err(Fault::new(folder.0.display(), what, remedy).of_kind(FaultKind::State));
         }
         Ok(simulation)

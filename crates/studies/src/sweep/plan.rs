@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use laneweave_scenario::scenario::Origin;
+use laneweave_scenario::scenario::{Origin, Scenario};
 use laneweave_scenario::{Fault, Source};
 use serde::Deserialize;
 
@@ -63,7 +63,9 @@ impl Default for Seeds {
 /// A plan.
 pub(super) struct Plan {
     /// The file of the scenario, or of the map.
-    pub(super) scenario: PathBuf,
+    scenario: PathBuf,
+    /// The scenario without any change.
+    base: (Scenario, Origin),
     /// What changes in each variant of it.
     pub(super) variants: Vec<Variant>,
     /// The seeds of each variant.
@@ -76,9 +78,13 @@ impl Plan {
     /// # Errors
     /// If the text is no plan, or plans nothing, or too much.
     pub(super) fn of(source: &Source) -> Result<Plan, Fault> {
+        if source.is_scenario() {
+            return Err(no_plan(&source.path, "a scenario"));
+        }
         let written: Written = source.parse()?;
         let scenario = source.folder().join(&written.scenario);
-        let seeds = written.seeds.all(source, &scenario)?;
+        let base = Origin::open(&scenario).map_err(|it| named(it, source, &scenario, None))?;
+        let seeds = written.seeds.all(source, base.0.run.seed)?;
         let reader = Reader { source };
         let mut variants = match &written.list {
             Some(rows) => reader.rows(rows)?,
@@ -94,7 +100,42 @@ impl Plan {
         }
         check_size(source, variants.len().saturating_mul(seeds.len()))?;
         variants.iter().try_for_each(|it| it.names_each_key_once())?;
-        Ok(Plan { scenario, variants, seeds })
+        Ok(Plan { scenario, base, variants, seeds })
+    }
+
+    /// The scenario of a `variant` of this plan, with this seed.
+    ///
+    /// # Errors
+    /// If a key is unknown, or its value of another kind.
+    pub(super) fn scenario(&self, variant: &Variant, seed: u64) -> Result<(Scenario, Origin), Fault> {
+        variant.scenario((&self.base.0, &self.base.1), seed)
+    }
+
+    /// The `fault` of a `variant` of this plan in `source`, found where the plan names its file.
+    pub(super) fn named(&self, fault: Fault, source: &Source, variant: &Variant) -> Fault {
+        named(fault, source, &self.scenario, Some(variant))
+    }
+}
+
+/// The file at `path` is `something` else than a plan.
+pub(super) fn no_plan(path: &Path, something: &str) -> Fault {
+    let what = format!("this is {something}, but the plan of a sweep is expected");
+    let remedy =
+        format!("write a plan with scenario = {:?} and what changes: laneweave sweep --help", path.display());
+    Fault::new(path.display(), what, remedy)
+}
+
+/// A `fault` in a plan. That of a file which the plan names, such as a missing one, is found where it names it: as the
+/// `scenario`, or in a `variant`.
+fn named(fault: Fault, source: &Source, scenario: &Path, variant: Option<&Variant>) -> Fault {
+    let is_of = |it: &&Change| it.value_text() == fault.place;
+    let change = variant.into_iter().flat_map(|it| &it.changes).find(is_of);
+    let is_scenario = scenario.display().to_string() == fault.place;
+    let place =
+        change.map(|it| it.place.clone()).or_else(|| is_scenario.then(|| source.place(&["scenario"])));
+    match place {
+        Some(place) => Fault { what: format!("{}: {}", fault.place, fault.what), place, ..fault },
+        None => fault,
     }
 }
 
@@ -112,14 +153,15 @@ fn every(variants: &[Variant], others: &[Variant]) -> Vec<Variant> {
 }
 
 impl Seeds {
-    fn all(self, source: &Source, scenario: &Path) -> Result<Vec<u64>, Fault> {
+    /// All seeds; those of a number begin with `first`.
+    fn all(self, source: &Source, first: u64) -> Result<Vec<u64>, Fault> {
         let wrong = |what: String, remedy| Err(Fault::new(source.place(&["seeds"]), what, remedy));
         match self {
             Seeds::Count(0) => wrong("there are no seeds".into(), "give 1 or more"),
             Seeds::Count(count) if count > MOST_RUNS as u64 => {
                 wrong(format!("{count} seeds are more than {MOST_RUNS}"), "give fewer")
             }
-            Seeds::Count(count) => seeds_from(Origin::open(scenario)?.0.run.seed, count),
+            Seeds::Count(count) => seeds_from(first, count),
             Seeds::List(seeds) if seeds.is_empty() => {
                 wrong("there are no seeds".into(), "give one, such as [1]")
             }
@@ -251,6 +293,10 @@ impl Reader<'_> {
         let range: Option<Vec<f64>> = value.as_array().and_then(|it| it.iter().map(number).collect());
         match range.as_deref() {
             Some([low, high]) if low < high && (high - low).is_finite() => Ok([*low, *high]),
+            Some([low, high]) if low >= high => {
+                let what = format!("the range from {low} to {high} is empty");
+                Err(self.wrong(path, what, "write the lowest number first, such as [0, 0.3]"))
+            }
             _ => {
                 let what = "this is no range of numbers";
                 Err(self.wrong(path, what, "write [lowest, highest], such as [0, 0.3]"))
@@ -330,6 +376,10 @@ mod tests {
             ),
             (
                 "[latin_hypercube]\nsamples = 3\nkeys.demand.trucks = [0.3, 0]",
+                "plan.toml:4:13: the range from 0.3 to 0 is empty; write the lowest number first, such as [0, 0.3]",
+            ),
+            (
+                "[latin_hypercube]\nsamples = 3\nkeys.demand.trucks = [0.3]",
                 "plan.toml:4:13: this is no range of numbers; write [lowest, highest], such as [0, 0.3]",
             ),
             (

@@ -99,7 +99,12 @@ impl Change {
             let known: Vec<String> = at.as_object().into_iter().flat_map(|it| it.keys().cloned()).collect();
             let found = match at {
                 Value::Object(table) => table.get_mut(name),
-                Value::Array(list) => name.parse::<usize>().ok().and_then(|it| list.get_mut(it)),
+                Value::Array(list) => {
+                    let count = list.len();
+                    let entry = name.parse::<usize>().ok().and_then(|it| list.get_mut(it));
+                    at = entry.ok_or_else(|| self.no_entry(&table, name, count))?;
+                    continue;
+                }
                 _ => None,
             };
             at = found.ok_or_else(|| {
@@ -110,6 +115,21 @@ impl Change {
         }
         *at = self.value.clone();
         Ok(())
+    }
+
+    /// The list `key` of the scenario, with `count` entries, has none that is called so.
+    fn no_entry(&self, key: &str, name: &str, count: usize) -> Fault {
+        let (what, remedy) = match count {
+            0 => (
+                format!("the scenario has no {key}"),
+                format!("write {key} in the scenario, and change it here"),
+            ),
+            _ => (
+                format!("the scenario has {count} of {key}, and none is {key}.{name}"),
+                format!("they are {key}.0 to {key}.{}", count - 1),
+            ),
+        };
+        Fault::new(&self.place, what, remedy)
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use laneweave::scenario::{Origin, Scenario};
-use laneweave::{Fault, Simulation};
+use laneweave::{Fault, FaultKind, Simulation};
 use laneweave_studies::sweep::{Shard, Sweep, Worker};
 
 /// Four runs on a copy of a map.
@@ -167,13 +167,32 @@ fn nothing_is_begun_if_one_variant_cannot_run() {
             of_grid("styles.egoist = [1]"),
             "plan.toml:3:8: unknown style \"egoist\"; did you mean \"egoistic\"? (or give the path of a style file, FILE.toml)",
         ),
+        (
+            of_grid("obstacle.0.length_m = [5, 10]"),
+            "plan.toml:3:12: the scenario has no obstacle; write obstacle in the scenario, and change it here",
+        ),
+        (
+            "map = \"road.osm\"".to_owned(),
+            "this is a scenario, but the plan of a sweep is expected; write a plan with scenario = ",
+        ),
         ("seeds = 2".to_owned(), "plan.toml:1:1: the key \"scenario\" is missing; add it"),
     ];
     for (plan, expected) in cases {
         let home = Home::new();
         let fault = home.begin(&plan).err().expect(expected).to_string();
-        assert!(fault.ends_with(expected), "{fault}");
+        assert!(fault.contains(expected), "{fault}");
         assert!(!home.out().exists());
+    }
+    for (plan, expected) in [
+        ("scenario = \"nothing.osm\"\nseeds = 2", "plan.toml:1:1: "),
+        ("scenario = \"nothing.toml\"\nseeds = 2", "plan.toml:1:1: "),
+        ("scenario = \"road.osm\"\n[grid]\nmap = [\"road.osm\", \"nothing.osm\"]", "plan.toml:3:1: "),
+    ] {
+        let home = Home::new();
+        let fault = home.begin(plan).err().expect(expected);
+        let text = fault.to_string();
+        assert!(text.contains(expected) && text.contains("nothing."), "{text}");
+        assert_eq!(fault.kind, FaultKind::NotFound);
     }
     let home = Home::new();
     fs::remove_file(home.0.join("road.osm")).expect("it is there");

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::command::golden::assert_golden;
-use laneweave_test_data::data;
+use laneweave_test_data::{data, size};
 
 use crate::command::program::{Folder, at_home, maps, without_first_duration};
 
@@ -85,6 +85,8 @@ fn shortened(command: &str, is_asked_about: bool) -> String {
                 .fold(line, |it, seeds| it.replace(&format!("--seeds {seeds}"), "--seeds 2"));
             without_first_duration(&format!("{line} --duration 2"))
         }
+        // What is done with ten minutes of a recording takes minutes.
+        Some("observe") if !line.contains("--until") => format!("{line}{}", size().pick(" --until 120", "")),
         // Experiments take minutes: the arguments are read, and nothing runs.
         Some("reproduce") => format!("{line} --help"),
         // It ends when the user says so, and has tests of its own.

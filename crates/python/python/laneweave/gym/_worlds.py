@@ -18,6 +18,16 @@ Populations = Mapping[str, Mapping[Any, float]]
 """Styles with their weights, by the name of a population."""
 
 
+def _checked(populations: Populations) -> dict[str, dict[Any, float]]:
+    example = 'give styles with their weights, such as {"calm": {"conservative": 1}}'
+    if not isinstance(populations, Mapping):
+        raise TypeError(f"populations: {populations!r} is no dict; {example}")
+    for name, styles in populations.items():
+        if not isinstance(name, str) or not isinstance(styles, Mapping):
+            raise TypeError(f"populations: {name!r}: {styles!r} is no population; {example}")
+    return {name: dict(styles) for name, styles in populations.items()}
+
+
 class Worlds:
     """Many worlds of one task, with their arrays."""
 
@@ -36,8 +46,10 @@ class Worlds:
     ) -> None:
         named = [("scenario", dict(keys))]
         if populations is not None:
-            named = [(name, {**keys, "styles": dict(styles)}) for name, styles in populations.items()]
-        self.batch = _laneweave.Batch(source, named, dict(task), list(seeds), threads, autoreset, reasons)
+            named = [(name, {**keys, "styles": styles}) for name, styles in _checked(populations).items()]
+        kind = task.get("observation")
+        whole = {**task, "observation": {kind: {}}} if isinstance(kind, str) else dict(task)
+        self.batch = _laneweave.Batch(source, named, whole, list(seeds), threads, autoreset, reasons)
         self.task: dict[str, Any] = self.batch.task
         self.reasons = reasons
         count, numbers = len(seeds), sum(int(np.prod(part["shape"])) for part in self.batch.parts)
@@ -56,7 +68,12 @@ class Worlds:
 
     def act(self, actions: Any) -> None:
         """Acts in all worlds."""
-        rows = np.ascontiguousarray(actions, np.float64).reshape(len(self.rewards), -1)
+        rows = np.ascontiguousarray(actions, np.float64)
+        expected = (len(self.rewards), *(self.action_space.shape or ()))
+        # One world takes its action without the axis of worlds.
+        if rows.shape != expected and not (len(self.rewards) == 1 and rows.shape == expected[1:]):
+            raise ValueError(f"actions: they have the shape {rows.shape}; give {expected}, a row for each world")
+        rows = rows.reshape(len(self.rewards), -1)
         self.batch.act(
             rows,
             self.observations,

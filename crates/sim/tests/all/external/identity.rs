@@ -1,12 +1,12 @@
 //! A vehicle whose user does what its driver intends moves like one without a user, bit for bit.
 
 use laneweave_sim::{Command, Control, VehicleId, World};
+use laneweave_test_data::size;
 
 use crate::external::worlds::world;
 
 /// The maps with their demand [veh/h].
 const MAPS: [(&str, f64); 3] = [("motorway_3_lanes.osm", 4500.0), ("ramps.osm", 4000.0), ("town.osm", 900.0)];
-const SEEDS: u64 = 20;
 /// Steps of a run: five minutes.
 const STEPS: u32 = 3000;
 
@@ -42,7 +42,7 @@ fn assert_echoes(map: &str, demand: f64, seed: u64, is_driven: impl Fn(VehicleId
 #[test]
 fn a_vehicle_that_is_given_back_its_own_intention_changes_nothing() {
     for (map, demand) in MAPS {
-        for seed in 1..=SEEDS {
+        for seed in 1..=size().pick(4, 20) {
             assert_echoes(map, demand, seed, |id| id == 40);
         }
     }
@@ -51,7 +51,7 @@ fn a_vehicle_that_is_given_back_its_own_intention_changes_nothing() {
 #[test]
 fn all_vehicles_that_are_given_back_their_own_intentions_change_nothing() {
     for (map, demand) in MAPS {
-        for seed in 1..=SEEDS {
+        for seed in 1..=size().pick(4, 20) {
             assert_echoes(map, demand, seed, |_| true);
         }
     }

@@ -3,6 +3,7 @@
 use laneweave::network::Side;
 use laneweave_calibration::observe::{Known, Observations, ObservedDriver};
 use laneweave_calibration::{BetaProfile, Candidate, DesireModel, Folds, PriorWeights, Splits, Supposed};
+use laneweave_test_data::size;
 
 use super::drone::{Driven, NOISE};
 use super::exact;
@@ -26,6 +27,9 @@ fn weights_observed_exactly_come_back() {
 
 #[test]
 fn what_is_known_of_drivers_whom_a_drone_sees_brings_their_weights_nearer() {
+    if !size().pick(false, true) {
+        return;
+    }
     // One run of 0.6 h is off by chance as much as by what is not known.
     const RUNS: u64 = 4;
     let mut shares = [[0.0; WEIGHTS.len()]; 3];
