@@ -89,7 +89,10 @@ fn parts_that_begin_and_end_at_the_same_time_do_not_disturb_each_other() {
 fn what_is_wrong_with_a_plan_is_said_before_anything_runs() {
     let folder = Folder::new().with("plan.toml", "scenario = \"none.osm\"\n").with("grid.toml", "[grid]\n");
     let cases = [
-        ("plan.toml", "error: none.osm: cannot be read: no such file or directory; check the path\n"),
+        (
+            "plan.toml",
+            "error: plan.toml:1:1: none.osm: cannot be read: no such file or directory; check the path\n",
+        ),
         ("grid.toml", "error: grid.toml:1:1: the key \"scenario\" is missing; add it\n"),
         ("other.toml", "error: other.toml: cannot be read: no such file or directory; check the path\n"),
         (
