@@ -6,8 +6,8 @@ Needs the packages laneweave (a release build), gymnasium, numpy and stable-base
     OMP_NUM_THREADS=1 python bench/learn_to_merge.py [--steps 300000] [--seeds 3] [--episodes 100] [--delay 0]
 
 The reward is that of the environment, unless ``--delay`` puts a weight on time. The numbers of PPO are those of
-stable-baselines3 except where they stand below. Neither was tuned. Episodes that judge begin in traffic that training has not seen: another ``starts_seed``, and
-the same seeds for all.
+stable-baselines3 except where they stand below. Neither was tuned. Episodes that judge begin in traffic that training
+has not seen: another ``starts_seed``, and the same seeds for all.
 """
 
 import argparse
@@ -32,7 +32,6 @@ KEEP = 1
 """The action that keeps lane and speed."""
 
 Policy = Callable[[np.ndarray], np.ndarray]
-
 
 REWARDS: dict[str, float] = {}
 """Weights of the reward that are not those of the environment."""
