@@ -1,5 +1,7 @@
 //! The map of a drawing: which of its lanes have a shape, how they are linked, and which conflict.
 
+use std::collections::BTreeMap;
+
 use laneweave_network::{Lanelet, Network, Point, Polygon};
 use rayon::prelude::*;
 
@@ -59,7 +61,8 @@ impl Drawing {
         let graph = Graph { nodes, conflicting: conflicts.with };
         let network = Network::new(lanelets, self.driving_side)?;
         let rules = self.rules.clone();
-        Ok(Map { network, graph, rules, contents: Contents::default(), problems, origin: None })
+        let contents = Contents::default();
+        Ok(Map { network, graph, rules, programs: BTreeMap::new(), contents, problems, origin: None })
     }
 
     /// Whether two lanes lie on either side of a border, or one begins or ends where the other does, in some

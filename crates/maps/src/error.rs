@@ -5,7 +5,7 @@ use std::io;
 use laneweave_network::NetworkError;
 use thiserror::Error;
 
-use crate::foreign::CONVERT;
+use crate::foreign::FROM_STREETS;
 use crate::problem::Problem;
 use crate::size::Size;
 use crate::xml::XmlError;
@@ -54,7 +54,7 @@ pub enum MapError {
     /// It is a street map of OpenStreetMap, with streets as lines and without lanes.
     #[error(
         "line {line}: this is a street map of OpenStreetMap, with {streets} streets (way {way} is the first) and no lanelet, so nothing \
-         is known of its lanes; {CONVERT}, or draw lanelets"
+         is known of its lanes; {FROM_STREETS}; or draw lanelets"
     )]
     Streets {
         /// The line of the first street.

@@ -15,22 +15,21 @@ pub struct Foreign {
     begins: fn(&[u8]) -> bool,
 }
 
-/// How a road network of another format becomes a map.
-pub(crate) const CONVERT: &str = "convert it to CommonRoad (.xml) or Lanelet2 (.osm) first, for example with the CommonRoad Scenario \
-                                  Designer (crdesigner)";
+/// How a street map becomes a map with lanes.
+pub(crate) const FROM_STREETS: &str =
+    "make a net of SUMO of it, which is read: netconvert --osm-files IN.osm -o OUT.net.xml";
 
 /// The formats that are known, but not read.
 const ALL: &[Foreign] = &[
     Foreign {
         name: "an OpenDRIVE road network",
-        remedy: CONVERT,
+        remedy: "make a net of SUMO of it, which is read: netconvert --opendrive-files IN.xodr -o OUT.net.xml",
         begins: |it| xml::root(it) == Some("OpenDRIVE"),
     },
-    Foreign { name: "a SUMO road network", remedy: CONVERT, begins: |it| xml::root(it) == Some("net") },
     Foreign {
         name: "binary OpenStreetMap data (.pbf)",
-        remedy: "a Lanelet2 map becomes .osm by `osmium cat IN.osm.pbf -o OUT.osm`, and a street map is first converted to lanes, for \
-                 example with the CommonRoad Scenario Designer (crdesigner)",
+        remedy: "a Lanelet2 map becomes .osm by `osmium cat IN.osm.pbf -o OUT.osm`, and a street map a net of SUMO by \
+                 `netconvert --osm-files OUT.osm -o OUT.net.xml`",
         begins: |it| it.get(4..).is_some_and(|it| it.starts_with(b"\x0a\x09OSMHeader")),
     },
 ];

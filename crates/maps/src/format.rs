@@ -2,6 +2,7 @@
 
 pub mod commonroad;
 pub mod lanelet2;
+pub mod sumo;
 
 use crate::drawing::Drawing;
 use crate::error::MapError;
@@ -27,6 +28,14 @@ pub struct Format {
     pub write: Option<fn(&Drawing) -> String>,
 }
 
+impl Format {
+    /// The length of the longest of its extensions with which the name of a file ends.
+    pub(crate) fn matched(&self, name: &str) -> Option<usize> {
+        let ends = |it: &&&str| name.strip_suffix(**it).is_some_and(|it| it.ends_with('.'));
+        self.extensions.iter().filter(ends).map(|it| it.len()).max()
+    }
+}
+
 /// The formats that can be read.
 pub const FORMATS: &[Format] = &[
     Format {
@@ -43,6 +52,14 @@ pub const FORMATS: &[Format] = &[
         begins: Some(|it| xml::root(it) == Some("commonRoad")),
         has_tracks: true,
         read: commonroad::read,
+        write: None,
+    },
+    Format {
+        name: "SUMO",
+        extensions: &["net.xml", "xml"],
+        begins: Some(|it| xml::root(it) == Some("net")),
+        has_tracks: false,
+        read: sumo::read,
         write: None,
     },
 ];

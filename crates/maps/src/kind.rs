@@ -53,15 +53,17 @@ impl FileKind {
 
     /// What a file with this name is; whether there is one does not matter.
     pub fn by_name(path: &Path) -> FileKind {
-        let name = uncompressed(path);
+        let name = uncompressed(path).to_ascii_lowercase();
         let Some((_, extension)) = name.rsplit_once('.') else { return FileKind::Unknown };
-        match extension.to_ascii_lowercase().as_str() {
+        match extension {
             "csv" => FileKind::Csv,
             "parquet" => FileKind::Parquet,
             "toml" => FileKind::Toml,
-            other => {
-                let format = FORMATS.iter().find(|it| it.extensions.contains(&other));
-                format.map_or(FileKind::Unknown, FileKind::Map)
+            _ => {
+                // Of `net.xml` and `xml` the longer one tells more.
+                let matched = FORMATS.iter().filter_map(|it| Some((it.matched(&name)?, it)));
+                let format = matched.reduce(|best, it| if it.0 > best.0 { it } else { best });
+                format.map_or(FileKind::Unknown, |it| FileKind::Map(it.1))
             }
         }
     }
@@ -146,6 +148,7 @@ mod tests {
         assert_eq!(by_name("maps/town.osm"), "a Lanelet2 map");
         assert_eq!(by_name("town.OSM.gz"), "a Lanelet2 map");
         assert_eq!(by_name("a.b/USA_1.xml"), "a CommonRoad map");
+        assert_eq!(by_name("town.net.xml.gz"), "a SUMO map");
         assert_eq!(by_name("01_tracks.csv"), "a table, such as a recording");
         assert_eq!(by_name("trips.parquet"), "a Parquet table, such as a recording");
         assert_eq!(by_name("demo.toml"), "a scenario or a style");
@@ -160,7 +163,7 @@ mod tests {
         assert_eq!(by_content("\u{feff}<?xml version='1.0'?>\n<!-- by hand -->\n<osm>"), "a Lanelet2 map");
         assert_eq!(by_content("<commonRoad a='"), "a CommonRoad map");
         assert_eq!(by_content("<?xml version='1.0'?>\n<OpenDRIVE>"), "an OpenDRIVE road network");
-        assert_eq!(by_content("<!-- netconvert -->\n<net version='1.16'>"), "a SUMO road network");
+        assert_eq!(by_content("<!-- netconvert -->\n<net version='1.16'>"), "a SUMO map");
         assert_eq!(by_content("\0\0\0\x0e\n\tOSMHeader\x18"), "binary OpenStreetMap data (.pbf)");
         assert_eq!(by_content("<!DOCTYPE html><html>"), "XML of an unknown format");
         assert_eq!(by_content("# ours\n\nmap = \"town.osm\"\n"), "a scenario or a style");

@@ -38,7 +38,7 @@ pub use contents::{Contents, Marking, MarkingPaint};
 pub use drawing::Drawing;
 pub use error::MapError;
 pub use foreign::Foreign;
-pub use format::{FORMATS, Format, commonroad, lanelet2};
+pub use format::{FORMATS, Format, commonroad, lanelet2, sumo};
 pub use graph::{Graph, Node, NodeIndex};
 pub use kind::{FileKind, is_compressed, uncompressed};
 pub use law::Law;

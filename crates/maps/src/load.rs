@@ -39,6 +39,10 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
         return Err(MapError::Empty);
     }
     match FileKind::by_content(&bytes) {
+        // Several formats have files that end in .xml.
+        FileKind::Map(other) if other.matched(&uncompressed(path).to_ascii_lowercase()).is_some() => {
+            (other.read)(&bytes, options)
+        }
         FileKind::Map(other) if other.name != format.name => Err(misnamed(other)),
         FileKind::Foreign(foreign) => Err(not_read(foreign)),
         other @ (FileKind::Toml | FileKind::Csv | FileKind::Parquet) if format.begins.is_some() => {

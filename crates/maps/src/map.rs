@@ -1,6 +1,8 @@
 //! A map that was read or drawn: what can be driven.
 
-use laneweave_network::Network;
+use std::collections::BTreeMap;
+
+use laneweave_network::{Network, Program};
 
 use crate::contents::Contents;
 use crate::graph::Graph;
@@ -16,6 +18,8 @@ pub struct Map {
     pub graph: Graph,
     /// The rules of traffic, beside the lanelets themselves.
     pub rules: Vec<Rule>,
+    /// The programs of its lights, by the ids of their rules; empty if it has none.
+    pub programs: BTreeMap<i64, Program>,
     /// The other contents of the file.
     pub contents: Contents,
     /// Elements that could not be used unchanged, in order of lines.

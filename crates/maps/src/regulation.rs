@@ -14,7 +14,7 @@ use crate::rule::{Rule, RuleKind};
 /// Beside a light, a stop sign does not count.
 pub fn regulations(map: &Map) -> Regulations {
     let lookup = Lookup::of(&map.network);
-    let mut regulations = Regulations::default();
+    let mut regulations = Regulations { programs: map.programs.clone(), ..Regulations::default() };
     for rule in &map.rules {
         if let RuleKind::RightOfWay { first, yielding } = &rule.kind {
             let priority = Priority { first: lookup.all(first), yielding: lookup.all(yielding) };

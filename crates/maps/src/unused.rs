@@ -1,6 +1,7 @@
 //! What a map holds and traffic does not use: named once for its kind, with its number.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
 use crate::problem::Problem;
 
@@ -14,12 +15,12 @@ pub(crate) type Meaning = (&'static str, &'static str);
 /// The elements of one kind.
 #[derive(Debug)]
 struct Found {
-    first: Place,
+    first: (&'static str, String, usize),
     count: usize,
 }
 
 /// What an element is, its id, and its line.
-pub(crate) type Place = (&'static str, i64, usize);
+pub(crate) type Place<Id> = (&'static str, Id, usize);
 
 /// Maximum of kinds: names of kinds come from the file.
 const MAXIMUM_KINDS: usize = 100;
@@ -29,15 +30,16 @@ const LETTERS: usize = 60;
 
 impl Unused {
     /// Counts an element of a kind named in the plural, such as `lanelets of the subtype walkway`.
-    pub(crate) fn add(&mut self, kind: &str, place: Place, meaning: Meaning) {
+    pub(crate) fn add(&mut self, kind: &str, (name, id, line): Place<impl Display>, meaning: Meaning) {
         let kind: String = kind.chars().take(LETTERS).collect();
         let key = (kind, meaning);
+        let first = || Found { first: (name, id.to_string(), line), count: 0 };
         if self.0.len() >= MAXIMUM_KINDS && !self.0.contains_key(&key) {
             let others = ("elements of still other kinds".into(), meaning);
-            self.0.entry(others).or_insert(Found { first: place, count: 0 }).count += 1;
+            self.0.entry(others).or_insert_with(first).count += 1;
             return;
         }
-        self.0.entry(key).or_insert(Found { first: place, count: 0 }).count += 1;
+        self.0.entry(key).or_insert_with(first).count += 1;
     }
 
     /// One problem for each kind.

@@ -109,6 +109,12 @@ impl Classes {
         Classes(self.0 | others.0)
     }
 
+    /// What both sets have in common.
+    #[must_use]
+    pub fn shared(self, others: Classes) -> Classes {
+        Classes(self.0 & others.0)
+    }
+
     /// This set without `others`.
     #[must_use]
     pub fn without(self, others: Classes) -> Classes {

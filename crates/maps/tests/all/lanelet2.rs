@@ -228,7 +228,7 @@ fn files_that_cannot_be_read_say_why() {
     assert_eq!(refusal(root), "this is a folder; give a map file in it");
     assert_eq!(
         refusal(&root.join("src/lib.rs")),
-        "no map format has the extension \"rs\"; known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+        "no map format has the extension \"rs\"; known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml), SUMO (.net.xml, .xml)"
     );
     assert_eq!(
         refusal(&root.join("Cargo.toml")),
@@ -261,7 +261,7 @@ fn a_file_with_a_wrong_name_is_told_by_its_content() {
     );
     assert_eq!(
         refusal("tracks.csv", "track_id,frame_id"),
-        "by its name this is a table, such as a recording, not a map; give the map of its location, known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+        "by its name this is a table, such as a recording, not a map; give the map of its location, known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml), SUMO (.net.xml, .xml)"
     );
     assert_eq!(
         refusal("town.scenario", "map = \"town.osm\""),

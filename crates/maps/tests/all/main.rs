@@ -6,4 +6,5 @@ mod other_formats;
 mod proportion;
 mod real_maps;
 mod robustness;
+mod sumo;
 mod unused;

@@ -1,6 +1,8 @@
 //! What drivers meet on the chains of a network.
 
-use super::light::{InPlan, Light, LightState};
+use std::collections::BTreeSet;
+
+use super::light::{InPlan, Light, LightIndex, LightState};
 use super::nearby::Nearby;
 use super::on_chain::{Crossing, OnChain};
 use super::plan::SignalPlan;
@@ -14,6 +16,8 @@ pub struct Junctions {
     pub zones: Vec<Zone>,
     /// All traffic lights.
     pub lights: Vec<Light>,
+    /// The lights whose programs the map gives.
+    pub programmed: BTreeSet<LightIndex>,
     /// The generated plans of lights without a program.
     pub made: Vec<SignalPlan>,
     /// The plans in which traffic extends greens.

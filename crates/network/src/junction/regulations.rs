@@ -1,5 +1,8 @@
 //! The rules for traffic on the lanelets of a network.
 
+use std::collections::BTreeMap;
+
+use super::light::Program;
 use crate::geometry::Point;
 use crate::lanelet::LaneletIndex;
 
@@ -10,6 +13,8 @@ pub struct Regulations {
     pub stops: Vec<StopRule>,
     /// Priorities.
     pub priorities: Vec<Priority>,
+    /// Programs of lights, by the smallest id of the rules of each.
+    pub programs: BTreeMap<i64, Program>,
 }
 
 /// A light or sign at which the drivers on some lanelets stop.

@@ -15,7 +15,10 @@ impl Junctions {
     pub(super) fn place_stops(&mut self, network: &Network, regulations: &Regulations) {
         for (rules, number) in sharing(&regulations.stops).into_iter().zip(0..) {
             let id = rules.iter().map(|it| it.id).min().unwrap_or_default();
-            self.lights.push(Light { id, program: Program::ALWAYS_GREEN, plan: None });
+            let program = regulations.programs.get(&id);
+            self.programmed.extend(program.map(|_| LightIndex(number)));
+            let program = program.cloned().unwrap_or(Program::ALWAYS_GREEN);
+            self.lights.push(Light { id, program, plan: None });
             for rule in rules {
                 self.place(network, rule, Sign::Light(LightIndex(number)));
             }

@@ -157,6 +157,9 @@ impl Network {
 /// Programs for lights without one, for traffic of which nothing is known. With them comes the number of pairs of
 /// lights that were compared.
 pub(crate) fn made_plans(network: &Network, junctions: &Junctions) -> (Vec<SignalPlan>, u64) {
-    let lights = Lights::new(network, junctions);
+    if junctions.programmed.len() == junctions.lights.len() {
+        return (Vec::new(), 0);
+    }
+    let lights = Lights::new(network, junctions).without(&junctions.programmed);
     (lights.programs(&LightTraffic::UNKNOWN), lights.comparisons)
 }

@@ -17,15 +17,16 @@ const FULL: f64 = 0.8;
 /// The lights whose programs are made.
 #[derive(Clone)]
 pub(super) struct MadeLights {
-    /// The lights to which the scenario gives a program.
+    /// The lights to which the scenario or the map gives a program.
     given: BTreeSet<LightIndex>,
     kind: MadeSignals,
 }
 
 impl MadeLights {
-    /// Those of `scenario`, which gives these `plans`.
-    pub(super) fn of(scenario: &Scenario, plans: &[SignalPlan]) -> MadeLights {
-        let given = plans.iter().flat_map(SignalPlan::lights).collect();
+    /// Those of `scenario`, which gives these `plans`, on its `network`.
+    pub(super) fn of(scenario: &Scenario, plans: &[SignalPlan], network: &Network) -> MadeLights {
+        let of_map = network.junctions.programmed.iter().copied();
+        let given = plans.iter().flat_map(SignalPlan::lights).chain(of_map).collect();
         MadeLights { given, kind: scenario.made_signals }
     }
 

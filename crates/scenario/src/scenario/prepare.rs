@@ -150,7 +150,7 @@ fn prepare_with(
     let mut remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
     remarks.extend(unused_lanes(&network, scenario.demand.classes()));
     let plans = plans(scenario, origin, &network)?;
-    let made = MadeLights::of(scenario, &plans);
+    let made = MadeLights::of(scenario, &plans, &network);
     let network = Arc::new(network.with_signals(&plans));
     check_places(scenario, &places)?;
     let build = |network: &Arc<Network>, amount: (Option<&Amount>, &[usize])| {

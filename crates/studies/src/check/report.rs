@@ -106,7 +106,7 @@ pub struct Lit {
 impl Report {
     /// The report on `map`.
     pub fn of(map: &Map) -> Report {
-        let Map { network, graph, rules, contents, problems, origin } = map;
+        let Map { network, graph, rules, contents, problems, origin, programs: _ } = map;
         let Network { lanelets, chains, lane_drops, driving_side, .. } = network;
         let (driven, places) = driven(map);
         let late_trips = Late::between(&driven, &places);

@@ -38,10 +38,9 @@ fn maps_that_are_none() {
     assert!(refusal(&folder, "run broken.osm").starts_with("broken.osm:2: not well-formed XML"));
     assert!(refusal(&folder, "run empty.osm").contains("can be used by vehicles; give roads the tags"));
     assert!(refusal(&folder, "run other.osm").starts_with("other.osm:1: the outermost element is <gml>"));
-    assert!(
-        refusal(&folder, "run map.xodr")
-            .ends_with("known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml), scenario (.toml)")
-    );
+    assert!(refusal(&folder, "run map.xodr").ends_with(
+        "known are Lanelet2 (.osm, .osm_xy), CommonRoad (.xml), SUMO (.net.xml, .xml), scenario (.toml)"
+    ));
 }
 
 #[test]
@@ -280,7 +279,7 @@ fn maps_recordings_and_tables_in_place_of_each_other() {
     assert_eq!(
         refusal(&folder, "run t.csv"),
         "t.csv: by its name this is a table, such as a recording, not a map; give the map of its location, known are \
-         Lanelet2 (.osm, .osm_xy), CommonRoad (.xml)"
+         Lanelet2 (.osm, .osm_xy), CommonRoad (.xml), SUMO (.net.xml, .xml)"
     );
     for line in ["check t.csv", "view t.csv", "replay t.csv"] {
         assert_eq!(

@@ -26,6 +26,7 @@ mod speed;
 mod unheeded;
 mod unused;
 
+use std::collections::BTreeMap;
 use std::collections::hash_map::Entry;
 use std::mem;
 
@@ -79,7 +80,7 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     problems.sort_by_key(|it| it.line);
     let mut network = Network::new(lanelets, options.driving_side.unwrap_or_default())?;
     network.law = options.law.rules();
-    Ok(Map { network, graph, rules: Vec::new(), contents, problems, origin: None })
+    Ok(Map { network, graph, rules: Vec::new(), programs: BTreeMap::new(), contents, problems, origin: None })
 }
 
 /// The lanelets that vehicles may use and that have a shape, without links; and the indices of all ids.

@@ -121,7 +121,7 @@ fn two_crossings(line: f64) -> Network {
     let stop = StopRule { id: 9, kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
     let lanelets = vec![road, northward(2, 50.0), northward(3, 75.0)];
     let network = Network::new(lanelets, DrivingSide::Right).unwrap();
-    network.regulated(&Regulations { stops: vec![stop], priorities: Vec::new() })
+    network.regulated(&Regulations { stops: vec![stop], ..Regulations::default() })
 }
 
 #[test]
