@@ -99,7 +99,12 @@ fn maps_of_other_formats_say_what_to_do() {
         .with("commas.osm", "<osm>\n<node id='1' lat='49,5' lon='8'/></osm>");
     for (file, place, what, remedy) in [
         ("town.xodr", "town.xodr: ", "an OpenDRIVE road network", "; make a net of SUMO of it"),
-        ("town.net.xml", "town.net.xml: ", "no lanelet", "; give edges lanes that passenger cars may use"),
+        (
+            "town.net.xml",
+            "town.net.xml: ",
+            "none of its 0 lanelets can be used",
+            "; give edges lanes that passenger cars may use",
+        ),
         ("town.osm.pbf", "town.osm.pbf: ", "binary OpenStreetMap data", "; a Lanelet2 map becomes .osm by"),
         ("streets.osm", "streets.osm:2: ", "a street map of OpenStreetMap", "; make a net of SUMO of it"),
         ("commas.osm", "commas.osm:2: ", "lat is \"49,5\", with a decimal comma", "; write a point"),
