@@ -15,7 +15,7 @@ use std::time::Instant;
 use laneweave::generate::{Motorway, motorway};
 use laneweave::network::Network;
 use laneweave::sim::{Purpose, Random};
-use laneweave::{Class, NewVehicle, Simulation};
+use laneweave::{Class, Id, NewVehicle, Simulation};
 use laneweave_bench::machine::{round_trip, spin_until};
 use laneweave_bench::{Rates, say};
 
@@ -209,7 +209,7 @@ fn fill(simulation: &mut Simulation) -> Result<(), Box<dyn Error>> {
 }
 
 /// Places by lanelet and position along it [m].
-fn free_places(network: &Network, random: &Random) -> Vec<(i64, f64)> {
+fn free_places(network: &Network, random: &Random) -> Vec<(Id, f64)> {
     let mut places = Vec::new();
     for chain in &network.chains {
         let mut x = 40.0;

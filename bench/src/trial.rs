@@ -1,6 +1,7 @@
 //! Random towns under random demand of up to twice their estimated capacity, from some entrances much more than from
 //! others.
 
+use laneweave::Id;
 use std::error::Error;
 
 use laneweave::Simulation;
@@ -92,16 +93,16 @@ fn map(number: u32, draw: &impl Fn(u32) -> f64) -> Result<(String, Map), Box<dyn
 /// A demand of one vehicle an hour in all, of which some entrances and destinations have much more than others. Trips
 /// go where one `leads`.
 fn skewed(
-    origins: &[i64],
-    destinations: &[i64],
-    leads: &dyn Fn(i64, i64) -> bool,
+    origins: &[Id],
+    destinations: &[Id],
+    leads: &dyn Fn(Id, Id) -> bool,
     random: &Random,
 ) -> Vec<OdRow> {
     let weight = |subject: u32| {
         let draw = random.uniform(subject, Purpose::Destination, 0);
         0.1 + draw * draw
     };
-    let leads_anywhere = |from: i64| destinations.iter().any(|it| *it != from && leads(from, *it));
+    let leads_anywhere = |from: Id| destinations.iter().any(|it| *it != from && leads(from, *it));
     let used = origins.iter().enumerate().filter(|(_, from)| leads_anywhere(**from));
     let all: f64 = used.map(|(number, _)| weight(number as u32)).sum();
     let mut rows = Vec::new();

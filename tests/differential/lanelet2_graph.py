@@ -23,11 +23,11 @@ METRIC = ".osm_xy"
 
 
 def ids(lanelets):
-    return sorted({lanelet.id for lanelet in lanelets})
+    return [str(it) for it in sorted({lanelet.id for lanelet in lanelets})]
 
 
 def id_of(lanelet):
-    return None if lanelet is None else lanelet.id
+    return None if lanelet is None else str(lanelet.id)
 
 
 def links(graph, lanelet):

@@ -8,7 +8,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use laneweave::generate::{Motorway, motorway};
-use laneweave::{Class, Columns, NewVehicle, Simulation};
+use laneweave::{Class, Columns, Id, NewVehicle, Simulation};
 use laneweave_bench::say;
 
 const LANES: usize = 4;
@@ -68,7 +68,7 @@ fn filled() -> Result<Simulation, Box<dyn Error>> {
     let map =
         motorway(&Motorway { lanes: LANES, length_m, lanelet_length_m, ..Motorway::default() })?.build()?;
     let mut simulation = Simulation::builder(map).vehicles_per_hour(0.0).threads(1).build()?;
-    let lanelets: Vec<i64> = simulation.network().lanelets.iter().map(|it| it.id).collect();
+    let lanelets: Vec<Id> = simulation.network().lanelets.iter().map(|it| it.id).collect();
     let places = lanelets.iter().flat_map(|it| [(*it, 0.3), (*it, 0.8)]);
     for (number, (lanelet, share)) in places.take(VEHICLES).enumerate() {
         let vehicle = NewVehicle {

@@ -3,7 +3,7 @@
 
 use laneweave_maps::drawing::{Border, Crossing, Drawing, Edge, Lane, Paint, Surroundings};
 use laneweave_maps::{Rule, RuleKind};
-use laneweave_network::{Classes, DrivingSide, Point};
+use laneweave_network::{Classes, DrivingSide, Id, Point};
 
 /// A drawing under construction.
 #[derive(Clone)]
@@ -62,8 +62,8 @@ impl Canvas {
         [left, right]: [Edge; 2],
         surroundings: Surroundings,
         limit_kmh: f64,
-    ) -> i64 {
-        let id = self.drawing.lanes.len() as i64 + 1;
+    ) -> Id {
+        let id = Id::from(self.drawing.lanes.len() as i64 + 1);
         let (classes, is_two_way) = (Classes::ALL, false);
         let lane = Lane { id, line: None, left, right, classes, is_two_way, surroundings, limit_kmh };
         self.drawing.lanes.push(lane);
@@ -71,20 +71,20 @@ impl Canvas {
     }
 
     /// Keeps a lane for some classes of vehicles.
-    pub(super) fn keep_for(&mut self, id: i64, classes: Classes) {
-        self.drawing.lanes[id as usize - 1].classes = classes;
+    pub(super) fn keep_for(&mut self, id: Id, classes: Classes) {
+        self.drawing.lanes.iter_mut().filter(|it| it.id == id).for_each(|it| it.classes = classes);
     }
 
     /// Adds a rule for some lanes.
     pub(super) fn rule(
         &mut self,
         kind: RuleKind,
-        mut lanelets: Vec<i64>,
+        mut lanelets: Vec<Id>,
         stop_lines: Vec<Vec<Point>>,
         signs: Vec<Vec<Point>>,
     ) {
         lanelets.sort_unstable();
-        self.drawing.rules.push(Rule { id: 0, line: None, kind, lanelets, stop_lines, signs });
+        self.drawing.rules.push(Rule { id: 0.into(), line: None, kind, lanelets, stop_lines, signs });
     }
 
     /// The same without points that no border uses.
@@ -105,7 +105,7 @@ impl Canvas {
     pub(super) fn finish(mut self, driving_side: DrivingSide) -> Drawing {
         let first = self.drawing.lanes.len() as i64 + 1;
         for (rule, id) in self.drawing.rules.iter_mut().zip(first..) {
-            rule.id = id;
+            rule.id = id.into();
         }
         match driving_side {
             DrivingSide::Right => self.drawing,

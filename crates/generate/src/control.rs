@@ -1,7 +1,7 @@
 //! The control of a junction, as rules of the map.
 
 use laneweave_maps::RuleKind;
-use laneweave_network::Point;
+use laneweave_network::{Id, Point};
 
 use super::canvas::Canvas;
 use super::compass::Compass;
@@ -49,7 +49,7 @@ pub(super) fn light(canvas: &mut Canvas, lane: &LaneEnd) {
 /// A rule for each arm that gives way.
 fn priority(canvas: &mut Canvas, arms: &[Arm], connectors: &[Connector]) {
     let is_main = |it: Compass| it.is_along_east();
-    let first: Vec<i64> =
+    let first: Vec<Id> =
         arms.iter().filter(|it| is_main(it.towards)).flat_map(|it| it.ways(connectors)).collect();
     for arm in arms.iter().filter(|it| !is_main(it.towards) && !it.arriving.is_empty()) {
         yielding(canvas, &arm.arriving, first.clone(), arm.ways(connectors));
@@ -57,7 +57,7 @@ fn priority(canvas: &mut Canvas, arms: &[Arm], connectors: &[Connector]) {
 }
 
 /// Adds the rule that the lanelets of some lanes, and the lanelets that follow, give way to those with priority.
-pub(super) fn yielding(canvas: &mut Canvas, lanes: &[LaneEnd], first: Vec<i64>, yielding: Vec<i64>) {
+pub(super) fn yielding(canvas: &mut Canvas, lanes: &[LaneEnd], first: Vec<Id>, yielding: Vec<Id>) {
     let lines = lanes.iter().map(|it| stop_line(canvas, it)).collect();
     let lanelets = [first.clone(), yielding.clone()].concat();
     canvas.rule(RuleKind::RightOfWay { first, yielding }, lanelets, lines, Vec::new());
@@ -65,7 +65,7 @@ pub(super) fn yielding(canvas: &mut Canvas, lanes: &[LaneEnd], first: Vec<i64>, 
 
 fn all_way_stop(canvas: &mut Canvas, arms: &[Arm]) {
     let lanes: Vec<&LaneEnd> = arms.iter().flat_map(|it| &it.arriving).collect();
-    let lanelets: Vec<i64> = lanes.iter().map(|it| it.lanelet).collect();
+    let lanelets: Vec<Id> = lanes.iter().map(|it| it.lanelet).collect();
     let lines = lanes.iter().map(|it| stop_line(canvas, it)).collect();
     canvas.rule(RuleKind::AllWayStop { lanelets: lanelets.clone() }, lanelets, lines, Vec::new());
 }

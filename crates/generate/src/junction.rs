@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use laneweave_maps::drawing::{Edge, Surroundings};
-use laneweave_network::Pose;
+use laneweave_network::{Id, Pose};
 
 use super::canvas::Canvas;
 use super::compass::Compass;
@@ -28,7 +28,7 @@ pub(super) struct Arm {
 
 impl Arm {
     /// The lanelets that arrive, and those that leave.
-    pub(super) fn ways(&self, connectors: &[Connector]) -> Vec<i64> {
+    pub(super) fn ways(&self, connectors: &[Connector]) -> Vec<Id> {
         let own = connectors.iter().filter(|it| it.from == self.towards).map(|it| it.lanelet);
         self.arriving.iter().map(|it| it.lanelet).chain(own).collect()
     }
@@ -39,7 +39,7 @@ impl Arm {
 pub(super) struct Connector {
     /// The arm from which it comes.
     pub(super) from: Compass,
-    pub(super) lanelet: i64,
+    pub(super) lanelet: Id,
 }
 
 /// Distance from the middle of a junction to the end of its arm [m], large enough for turns from and to the crossing
@@ -78,7 +78,7 @@ impl Borders {
         [begin, end]: [LaneEnd; 2],
         headings: [f64; 2],
         limit_kmh: f64,
-    ) -> i64 {
+    ) -> Id {
         let sides = [[begin.left, end.left], [begin.right, end.right]];
         let edges = sides.map(|it| Edge { border: self.border(canvas, it, headings), reversed: false });
         canvas.lane(edges, Surroundings::Town, limit_kmh)

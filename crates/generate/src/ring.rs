@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI, TAU};
 
 use laneweave_maps::drawing::{Crossing, Edge, Surroundings};
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Id, Point, Pose};
 
 use super::canvas::Canvas;
 use super::control::yielding;
@@ -111,7 +111,7 @@ pub(super) fn ring(canvas: &mut Canvas, ring: Ring, arms: &[RingArm]) {
     };
     let points: Vec<Vec<u32>> = angles.iter().map(&mut row).collect();
     // In front of each arm, then on to the next one.
-    let pieces: Vec<Vec<i64>> = (0..angles.len())
+    let pieces: Vec<Vec<Id>> = (0..angles.len())
         .map(|it| {
             let next = (it + 1) % angles.len();
             let turn = (angles[next] - angles[it]).rem_euclid(TAU);
@@ -140,7 +140,7 @@ pub(super) fn ring(canvas: &mut Canvas, ring: Ring, arms: &[RingArm]) {
                 borders.connector(canvas, [*lane, on_piece(arriving, onto)], headings, SPEED_LIMIT),
             ]
         };
-        let ways: Vec<[i64; 2]> = arm.arriving.iter().zip(outer(&arm.arriving)).map(&mut gives_way).collect();
+        let ways: Vec<[Id; 2]> = arm.arriving.iter().zip(outer(&arm.arriving)).map(&mut gives_way).collect();
         if !ways.is_empty() {
             let before = &pieces[(leaving + pieces.len() - 1) % pieces.len()];
             let first = [&before[..], &pieces[leaving]].concat();
@@ -157,7 +157,7 @@ fn piece(
     [begin, end]: [&Vec<u32>; 2],
     [angle, turn]: [f64; 2],
     is_between_arms: bool,
-) -> Vec<i64> {
+) -> Vec<Id> {
     let mut edge = |line: usize| {
         let radius = ring.line(line);
         let path = Path::arc(ring.at(angle, radius), radius, turn);

@@ -1,7 +1,7 @@
 //! Streets: lanes along a path and against it, cut into lanelets.
 
 use laneweave_maps::drawing::{Crossing, Edge, Surroundings};
-use laneweave_network::{Classes, Point, Pose};
+use laneweave_network::{Classes, Id, Point, Pose};
 
 use super::canvas::Canvas;
 use super::path::Path;
@@ -103,7 +103,7 @@ pub(super) enum End {
 /// A lane where it ends at a junction, or begins there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LaneEnd {
-    pub(super) lanelet: i64,
+    pub(super) lanelet: Id,
     /// The ends of its borders.
     pub(super) left: u32,
     pub(super) right: u32,

@@ -8,12 +8,12 @@ pub fn main() -> Result<(), Fault> {
     let mut simulation =
         Simulation::builder("maps/motorway_2_lanes.osm").vehicles_per_hour(3000.0).build()?;
     let ego = simulation.insert(NewVehicle {
-        lanelet: 5,
+        lanelet: 5.into(),
         position_m: 50.0,
         speed_mps: 25.0,
         class: Class::Car,
         style: "conservative".into(),
-        destination: Some(49),
+        destination: Some(49.into()),
     })?;
     let (longitudinal, lateral) = (Longitudinal::Speed(20.0), Lateral::Change(Side::Left));
     simulation.control(ego, Control::Drive { longitudinal, lateral })?;

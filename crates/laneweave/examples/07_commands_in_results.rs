@@ -15,8 +15,14 @@ pub fn main() -> Result<(), Fault> {
     let summary = builder().build()?.run_to_results_with(out.join("first"), |it| -> Result<(), Fault> {
         if it.time_s() >= 30.0 && broken_down.is_none() {
             let (class, style) = (Class::Truck, "conservative".into());
-            let truck =
-                NewVehicle { lanelet: 5, position_m: 60.0, speed_mps: 20.0, class, style, destination: None };
+            let truck = NewVehicle {
+                lanelet: 5.into(),
+                position_m: 60.0,
+                speed_mps: 20.0,
+                class,
+                style,
+                destination: None,
+            };
             // Its place may not be free yet.
             if let Ok(id) = it.insert(truck) {
                 let (longitudinal, lateral) = (Longitudinal::Speed(0.0), Lateral::Keep);

@@ -32,7 +32,7 @@ mod simulation;
 pub use fleet::{Fleet, SIGHT_COLUMNS};
 pub use laneweave_models::Parameter;
 pub use laneweave_models::change::IncentiveName;
-pub use laneweave_network::{LightState, Side};
+pub use laneweave_network::{Id, LightState, Side};
 #[cfg(feature = "reports")]
 pub use laneweave_results::report;
 pub use laneweave_results::{checkpoint, folder, output, record};

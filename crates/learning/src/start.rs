@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use laneweave::sim::{Purpose, Random};
-use laneweave::{Class, Event, Fault, Simulation, Template, VehicleId};
+use laneweave::{Class, Event, Fault, Id, Simulation, Template, VehicleId};
 
 use crate::task::{Task, wrong};
 
@@ -92,7 +92,7 @@ impl Starts {
     fn ego(&self, simulation: &Simulation, event: &Event) -> Option<VehicleId> {
         let Event::Entered(entered) = event else { return None };
         let vehicle = simulation.view(entered.vehicle)?;
-        let is_among = |wanted: &[i64], found: Option<i64>| {
+        let is_among = |wanted: &[Id], found: Option<Id>| {
             wanted.is_empty() || found.is_some_and(|it| wanted.contains(&it))
         };
         let is_ego = vehicle.driver.class == Class::Car
@@ -103,7 +103,7 @@ impl Starts {
 }
 
 /// The entrance where a vehicle came from: its smallest lanelet id.
-fn entrance(simulation: &Simulation, vehicle: VehicleId) -> Option<i64> {
+fn entrance(simulation: &Simulation, vehicle: VehicleId) -> Option<Id> {
     let number = simulation.trip(vehicle)?.origin?;
     simulation.origins().get(number).map(|it| it.0)
 }

@@ -1,6 +1,6 @@
 //! What a program learns: which vehicle it drives, what it sees and may do, and what that is worth.
 
-use laneweave::{Fault, FaultKind};
+use laneweave::{Fault, FaultKind, Id};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
@@ -13,9 +13,9 @@ use crate::reward::Rewards;
 #[serde(default, deny_unknown_fields)]
 pub struct Task {
     /// The entrances where an ego may come from, by their smallest lanelet ids; empty: all.
-    pub entrances: Vec<i64>,
+    pub entrances: Vec<Id>,
     /// The destinations that an ego may have, by their smallest lanelet ids; empty: all.
-    pub destinations: Vec<i64>,
+    pub destinations: Vec<Id>,
     /// What an action is.
     pub action: Action,
     /// What the ego sees.

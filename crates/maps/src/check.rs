@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use laneweave_network::{Alongside, Lanelet, LaneletIndex, Network, Polyline, Pose};
+use laneweave_network::{Alongside, Id, Lanelet, LaneletIndex, Network, Polyline, Pose};
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
@@ -111,7 +111,7 @@ impl<'a> Joints<'a> {
     }
 
     /// The lanelet other than `own` whose joint is nearest to `pose` and points the same way, and how far it is [m].
-    fn nearest(&self, pose: Pose, own: &Lanelet) -> Option<(i64, f64)> {
+    fn nearest(&self, pose: Pose, own: &Lanelet) -> Option<(Id, f64)> {
         let near = self.index.locate_within_distance([pose.at.x, pose.at.y], NEARLY * NEARLY);
         let found = near.filter_map(|it| {
             let (other, joint) = (&self.lanelets[it.data as usize], self.poses[it.data as usize]);

@@ -1,6 +1,6 @@
 //! Which lanes conflict: those that have common area, seen from above.
 
-use laneweave_network::{LaneletIndex, Polygon};
+use laneweave_network::{Id, LaneletIndex, Polygon};
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -26,7 +26,7 @@ pub(crate) struct Conflicts {
 
 impl Conflicts {
     /// The problems of the lanes with more others than are checked, given the element and line of each.
-    pub(crate) fn problems(&self, place: impl Fn(LaneletIndex) -> (i64, Option<usize>)) -> Vec<Problem> {
+    pub(crate) fn problems(&self, place: impl Fn(LaneletIndex) -> (Id, Option<usize>)) -> Vec<Problem> {
         let problem = |it: &LaneletIndex| {
             let (id, line) = place(*it);
             Problem {

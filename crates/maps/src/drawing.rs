@@ -1,6 +1,6 @@
 //! A map as it is drawn: points, borders through them, and lanes between borders.
 
-use laneweave_network::{Classes, DrivingSide, Point, Polygon};
+use laneweave_network::{Classes, DrivingSide, Id, Point, Polygon};
 
 use crate::rule::Rule;
 
@@ -84,7 +84,7 @@ impl Edge {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lane {
     /// Its id in the map.
-    pub id: i64,
+    pub id: Id,
     /// Line of the file in which it stands.
     pub line: Option<usize>,
     /// Its left side.

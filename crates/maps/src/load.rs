@@ -20,24 +20,9 @@ use crate::size::Size;
 /// If it cannot be read, is of no known format or of another one than it is named after, breaks its format's rules, or
 /// has no lanelet for vehicles.
 pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
-    let metadata = fs::metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => MapError::Missing,
-        _ => MapError::Unreadable(error),
-    })?;
-    if metadata.is_dir() {
-        return Err(MapError::Folder);
-    }
+    size_of(path)?;
     let format = format_of(path)?;
-    let bytes = if is_compressed(path) {
-        unpacked(path, options.largest)?
-    } else {
-        admit(metadata.len(), options.largest)?;
-        let file = File::open(path).map_err(MapError::Unreadable)?;
-        read_all(file, metadata.len()).map_err(MapError::Unreadable)?
-    };
-    if bytes.is_empty() {
-        return Err(MapError::Empty);
-    }
+    let bytes = contents(path, options.largest)?;
     match FileKind::by_content(&bytes) {
         // Several formats have files that end in .xml.
         FileKind::Map(other) if other.matched(&uncompressed(path).to_ascii_lowercase()).is_some() => {
@@ -50,6 +35,31 @@ pub fn load(path: &Path, options: &ReadOptions) -> Result<Map, MapError> {
         }
         _ => (format.read)(&bytes, options),
     }
+}
+
+/// The content of the file at `path`, unpacked if a final `.gz` says that it is compressed.
+///
+/// # Errors
+/// If it cannot be read, is empty, or is larger than the `largest` size.
+pub fn contents(path: &Path, largest: Size) -> Result<Vec<u8>, MapError> {
+    let size = size_of(path)?;
+    let bytes = if is_compressed(path) {
+        unpacked(path, largest)?
+    } else {
+        admit(size, largest)?;
+        let file = File::open(path).map_err(MapError::Unreadable)?;
+        read_all(file, size).map_err(MapError::Unreadable)?
+    };
+    if bytes.is_empty() { Err(MapError::Empty) } else { Ok(bytes) }
+}
+
+/// The size of the file at `path` [B].
+fn size_of(path: &Path) -> Result<u64, MapError> {
+    let metadata = fs::metadata(path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => MapError::Missing,
+        _ => MapError::Unreadable(error),
+    })?;
+    if metadata.is_dir() { Err(MapError::Folder) } else { Ok(metadata.len()) }
 }
 
 /// The text of the compressed file at `path`. It is unpacked twice: the first time only to get its size, so that a

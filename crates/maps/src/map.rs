@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{Network, Program};
+use laneweave_network::{Id, Network, Program};
 
 use crate::contents::Contents;
 use crate::graph::Graph;
@@ -19,7 +19,7 @@ pub struct Map {
     /// The rules of traffic, beside the lanelets themselves.
     pub rules: Vec<Rule>,
     /// The programs of its lights, by the ids of their rules; empty if it has none.
-    pub programs: BTreeMap<i64, Program>,
+    pub programs: BTreeMap<Id, Program>,
     /// The other contents of the file.
     pub contents: Contents,
     /// Elements that could not be used unchanged, in order of lines.

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use laneweave_network::{LaneletIndex, Network, Priority, Regulations, StopKind, StopRule};
+use laneweave_network::{Id, LaneletIndex, Network, Priority, Regulations, StopKind, StopRule};
 
 use crate::map::Map;
 use crate::problem::Problem;
@@ -80,7 +80,7 @@ pub(crate) fn unobeyed(map: &Map) -> Vec<Problem> {
 
 struct Lookup<'a> {
     network: &'a Network,
-    places: HashMap<i64, LaneletIndex>,
+    places: HashMap<Id, LaneletIndex>,
 }
 
 impl Lookup<'_> {
@@ -89,7 +89,7 @@ impl Lookup<'_> {
         Lookup { network, places: places.collect() }
     }
 
-    fn all(&self, ids: &[i64]) -> Vec<LaneletIndex> {
+    fn all(&self, ids: &[Id]) -> Vec<LaneletIndex> {
         ids.iter().filter_map(|id| self.places.get(id).copied()).collect()
     }
 

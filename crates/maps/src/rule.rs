@@ -1,18 +1,18 @@
 //! The rules of traffic beside the lanelets themselves: lights, signs, and priorities.
 
-use laneweave_network::Point;
+use laneweave_network::{Id, Point};
 
 /// One regulatory element of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     /// Its id in the map.
-    pub id: i64,
+    pub id: Id,
     /// Line of the file in which it stands.
     pub line: Option<usize>,
     /// The kind of rule.
     pub kind: RuleKind,
     /// Ids of the lanelets that refer to it: their drivers obey it.
-    pub lanelets: Vec<i64>,
+    pub lanelets: Vec<Id>,
     /// Stop lines; without any, drivers stop at the end of their lanelet.
     pub stop_lines: Vec<Vec<Point>>,
     /// Positions of the lights or signs that show it.
@@ -27,21 +27,21 @@ pub enum RuleKind {
     /// Some lanelets have priority.
     RightOfWay {
         /// Ids of the lanelets with priority.
-        first: Vec<i64>,
+        first: Vec<Id>,
         /// Ids of the lanelets that give way.
-        yielding: Vec<i64>,
+        yielding: Vec<Id>,
     },
     /// An all-way stop: every driver stops, and they go in the order of arrival.
     AllWayStop {
         /// Ids of the lanelets that lead there.
-        lanelets: Vec<i64>,
+        lanelets: Vec<Id>,
     },
     /// Stop, then give way.
     StopSign,
     /// Drivers give way to people on a crosswalk.
     Crosswalk {
         /// Ids of the lanelets that cross.
-        lanelets: Vec<i64>,
+        lanelets: Vec<Id>,
     },
     /// A speed limit; it is already in the lanelets.
     SpeedLimit,

@@ -6,14 +6,14 @@ use std::fmt::Display;
 use crate::problem::Problem;
 
 /// Kinds of elements that traffic does not use.
-#[derive(Debug, Default)]
-pub(crate) struct Unused(BTreeMap<(String, Meaning), Found>);
+#[derive(Clone, Debug, Default)]
+pub struct Unused(BTreeMap<(String, Meaning), Found>);
 
 /// What it means that something is not used: what traffic does instead, and what a user can do.
-pub(crate) type Meaning = (&'static str, &'static str);
+pub type Meaning = (&'static str, &'static str);
 
 /// The elements of one kind.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Found {
     first: (&'static str, String, usize),
     count: usize,
@@ -30,7 +30,7 @@ const LETTERS: usize = 60;
 
 impl Unused {
     /// Counts an element of a kind named in the plural, such as `lanelets of the subtype walkway`.
-    pub(crate) fn add(&mut self, kind: &str, (name, id, line): Place<impl Display>, meaning: Meaning) {
+    pub fn add(&mut self, kind: &str, (name, id, line): Place<impl Display>, meaning: Meaning) {
         let kind: String = kind.chars().take(LETTERS).collect();
         let key = (kind, meaning);
         let first = || Found { first: (name, id.to_string(), line), count: 0 };
@@ -43,7 +43,7 @@ impl Unused {
     }
 
     /// One problem for each kind.
-    pub(crate) fn problems(self) -> impl Iterator<Item = Problem> {
+    pub fn problems(self) -> impl Iterator<Item = Problem> {
         self.0.into_iter().map(|((kind, (what, remedy)), Found { first: (name, id, line), count })| Problem {
             element: format!("{name} {id}"),
             line: Some(line),

@@ -165,7 +165,10 @@ pub trait Visitor {
     fn close(&mut self, path: &str, text: &str);
 }
 
-/// Reads a document with the outermost element `root`, and calls the receiver.
+/// As the name of the outermost element: any.
+pub const ANY: &str = "";
+
+/// Reads a document with the outermost element `root`, or with [`ANY`], and calls the receiver.
 ///
 /// # Errors
 /// If it is not well-formed, is nested too deeply, uses an entity of its own, or has another outermost element.
@@ -283,7 +286,8 @@ impl<'a> Tokens<'a> {
                 }
                 Event::End(element) => {
                     // The reader knows the others.
-                    if self.depth == 0 || self.depth == 1 && element.name().as_ref() != self.root {
+                    let is_root = self.root == ANY || element.name().as_ref() == self.root;
+                    if self.depth == 0 || self.depth == 1 && !is_root {
                         let what =
                             format!("</{}> closes an element that is not open", element.name().as_ref());
                         return Err(broken(self.line, what));
@@ -322,7 +326,7 @@ impl<'a> Tokens<'a> {
             if std::mem::replace(&mut self.has_root, true) {
                 return Err(broken(self.line, "there is a second outermost element"));
             }
-            if name != self.root {
+            if self.root != ANY && name != self.root {
                 return Err(self.other_root(name));
             }
         }

@@ -138,6 +138,7 @@ with_incentives! { parameters! {
         AccelerationRange "follow.acceleration_range" range(0.5, 1000.0, "m"), [Gfm] acceleration_range;
         BrakingTime "follow.braking_time" range(0.1, 100.0, "s"), [Gfm] braking_time;
         BrakingRange "follow.braking_range" range(1.0, 10_000.0, "m"), [Gfm] braking_range;
+        Adaptation "follow.adaptation" range(0.0, 10.0, "s"), [Krauss] adaptation;
         ReactionTime "follow.reaction_time" range(0.1, 10.0, "s"), [Gipps] reaction_time;
         LeaderDeceleration "follow.leader_deceleration" range(0.1, 10.0, "m/s²"), [Gipps] leader_deceleration;
     }

@@ -1,5 +1,6 @@
 //! From lanelets to a network: chains, what lies beside and beyond them, entrances and exits.
 
+use crate::id::Id;
 use thiserror::Error;
 
 use crate::bend::note_slow_places;
@@ -20,12 +21,12 @@ pub enum NetworkError {
     Empty,
     /// A neighbour or successor does not exist.
     #[error("lanelet {0}: refers to a lanelet that does not exist")]
-    Dangling(i64),
+    Dangling(Id),
     /// A speed limit is not a positive number.
     #[error("lanelet {id}: speed limit {limit} m/s is not a positive number")]
     SpeedLimit {
         /// The lanelet.
-        id: i64,
+        id: Id,
         /// Its limit [m/s].
         limit: f64,
     },

@@ -1,6 +1,7 @@
 //! Entrances and exits: where vehicles come onto the map and leave it.
 
 use crate::chain::{Chain, ChainIndex};
+use crate::id::Id;
 use crate::lanelet::{Lanelet, LaneletIndex, Side};
 
 /// A lane shorter than this, up to its next fork or merge, is no entrance, and a road shorter than this has no exit
@@ -11,7 +12,7 @@ pub const MINIMUM_GATE_LENGTH: f64 = 10.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gate {
     /// The smallest id of its lanelets: its name.
-    pub id: i64,
+    pub id: Id,
     /// Its chains, ordered by the ids of their lanelets at the gate.
     pub chains: Vec<ChainIndex>,
 }

@@ -2,6 +2,7 @@
 
 use crate::class::Classes;
 use crate::geometry::Polyline;
+use crate::id::Id;
 use serde::{Deserialize, Serialize};
 
 /// A lanelet's place in [`crate::Network::lanelets`].
@@ -84,7 +85,7 @@ impl DrivingSide {
 #[derive(Clone, Debug)]
 pub struct Lanelet {
     /// Its id in the map.
-    pub id: i64,
+    pub id: Id,
     /// Left border, in the direction of travel.
     pub left_border: Polyline,
     /// Right border, in the direction of travel.
@@ -111,9 +112,13 @@ pub struct Lanelet {
 
 impl Lanelet {
     /// A lanelet with nothing around it.
-    pub fn alone(id: i64, [left_border, right_border, centre]: [Polyline; 3], speed_limit: f64) -> Lanelet {
+    pub fn alone(
+        id: impl Into<Id>,
+        [left_border, right_border, centre]: [Polyline; 3],
+        speed_limit: f64,
+    ) -> Lanelet {
         Lanelet {
-            id,
+            id: id.into(),
             left_border,
             right_border,
             centre,

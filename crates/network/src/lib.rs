@@ -12,6 +12,7 @@ mod crossed;
 mod gate;
 mod geometry;
 mod ground;
+mod id;
 mod joints;
 mod junction;
 mod lanelet;
@@ -32,6 +33,7 @@ pub use class::{Body, Class, Classes};
 pub use gate::{Gate, MINIMUM_GATE_LENGTH};
 pub use geometry::{LineWalk, Point, Polyline, Pose, turn};
 pub use ground::{Footprint, Ground};
+pub use id::Id;
 pub use joints::onward;
 pub use junction::{
     Crossing, Extension, InPlan, Junctions, Light, LightConflict, LightIndex, LightState, Nearby, OnChain,

@@ -3,6 +3,7 @@
 use crate::chain::{Beside, Chain, ChainIndex, Position};
 use crate::class::Class;
 use crate::gate::Gate;
+use crate::id::Id;
 use crate::junction::Junctions;
 use crate::lanelet::{DrivingSide, Lanelet, LaneletIndex};
 use crate::law::{LaneUse, RoadLaw};
@@ -68,7 +69,8 @@ impl Network {
     }
 
     /// The lanelet with this id; of several ones the first.
-    pub fn lanelet_with(&self, id: i64) -> Option<LaneletIndex> {
+    pub fn lanelet_with(&self, id: impl Into<Id>) -> Option<LaneletIndex> {
+        let id = id.into();
         let place = self.by_id.partition_point(|it| self.lanelets[it.at()].id < id);
         self.by_id.get(place).copied().filter(|it| self.lanelets[it.at()].id == id)
     }

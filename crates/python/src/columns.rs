@@ -6,16 +6,12 @@ use pyo3::types::PyDict;
 
 use crate::values::array;
 
-/// Arrays by the names of the columns of the table trajectories; `lanelets` are the ids of the lanelets.
-pub(crate) fn dict(
-    py: Python<'_>,
-    columns: Columns,
-    lanelets: Vec<i64>,
-    has_poses: bool,
-) -> PyResult<Bound<'_, PyDict>> {
+/// Arrays by the names of the columns of the table trajectories; lanelets are given by their places in the
+/// list of all lanelets.
+pub(crate) fn dict(py: Python<'_>, columns: Columns, has_poses: bool) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("vehicle", array(py, columns.id))?;
-    dict.set_item("lanelet", array(py, lanelets))?;
+    dict.set_item("lanelet_index", array(py, columns.lanelet))?;
     dict.set_item("position_m", array(py, columns.position_m))?;
     dict.set_item("speed_mps", array(py, columns.speed_mps))?;
     dict.set_item("acceleration_mps2", array(py, columns.acceleration_mps2))?;

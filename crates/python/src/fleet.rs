@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::control::control;
 use crate::errors::{Failure, detached, locked};
+use crate::id::GivenId;
 use crate::template::Template;
 use crate::values::Signals;
 
@@ -16,7 +17,7 @@ use crate::values::Signals;
 pub(crate) struct Fleet {
     held: Mutex<laneweave::Fleet>,
     size: usize,
-    lanelets: Vec<i64>,
+    lanelets: Vec<GivenId>,
 }
 
 /// Steps between two looks at signals.
@@ -39,7 +40,7 @@ impl Fleet {
     fn new(py: Python<'_>, template: &Template, seeds: Vec<u64>, threads: usize) -> PyResult<Fleet> {
         detached(py, || {
             let fleet = laneweave::Fleet::new(&template.made, seeds, threads)?;
-            let lanelets = template.made.spawn(0)?.lanelets();
+            let lanelets = template.made.spawn(0)?.lanelets().into_iter().map(GivenId).collect();
             Ok(Fleet { size: fleet.len(), held: Mutex::new(fleet), lanelets })
         })
     }
@@ -67,7 +68,7 @@ impl Fleet {
 
     /// The ids of all lanelets: the column `lanelet_index` has places in this list.
     #[getter]
-    fn lanelets(&self) -> Vec<i64> {
+    fn lanelets(&self) -> Vec<GivenId> {
         self.lanelets.clone()
     }
 

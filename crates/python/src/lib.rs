@@ -17,6 +17,7 @@ mod command;
 mod control;
 mod errors;
 mod fleet;
+mod id;
 mod keys;
 mod learning;
 mod map;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use laneweave::maps::Sense;
 use laneweave::network::{Lanelet, Polyline};
 use laneweave::scenario::{MapOptions, open_map};
-use laneweave::{Fault, FaultKind};
+use laneweave::{Fault, FaultKind, Id};
 use laneweave_studies::check::{GraphJson, Report, picture};
 use laneweave_studies::routes::ways;
 use numpy::{PyArray2, PyArrayMethods};
@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::{Failure, detached};
+use crate::id::GivenId;
 use crate::keys::fitting;
 use crate::values::{given, plain, to_python};
 
@@ -25,7 +26,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    fn lanelet(&self, id: i64) -> Result<&Lanelet, Failure> {
+    fn lanelet(&self, id: Id) -> Result<&Lanelet, Failure> {
         self.read.network.lanelets.iter().find(|it| it.id == id).ok_or_else(|| {
             let what = format!("this map has no lanelet {id} for vehicles");
             Fault::new("map", what, "choose one of its lanelets").of_kind(FaultKind::NotFound).into()
@@ -66,13 +67,13 @@ impl Map {
 
     /// The ids of all lanelets for vehicles.
     #[getter]
-    fn lanelets(&self) -> Vec<i64> {
-        self.read.network.lanelets.iter().map(|it| it.id).collect()
+    fn lanelets(&self) -> Vec<GivenId> {
+        self.read.network.lanelets.iter().map(|it| GivenId(it.id)).collect()
     }
 
     /// The borders and the centre line of a lanelet.
-    fn lines<'py>(&self, py: Python<'py>, lanelet: i64) -> PyResult<Bound<'py, PyDict>> {
-        let lanelet = self.lanelet(lanelet).map_err(|it| it.raise(py))?;
+    fn lines<'py>(&self, py: Python<'py>, lanelet: GivenId) -> PyResult<Bound<'py, PyDict>> {
+        let lanelet = self.lanelet(lanelet.0).map_err(|it| it.raise(py))?;
         let dict = PyDict::new(py);
         dict.set_item("left", points(py, &lanelet.left_border)?)?;
         dict.set_item("right", points(py, &lanelet.right_border)?)?;
@@ -83,12 +84,7 @@ impl Map {
     /// The routing graph, by the ids of the lanelets.
     fn graph(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let graph = detached(py, || plain(&GraphJson(&self.read)))?;
-        let dict = PyDict::new(py);
-        for (id, links) in graph.as_object().into_iter().flatten() {
-            let id: i64 = id.parse().map_err(|it| Failure::from(Fault::bug("graph", it)).raise(py))?;
-            dict.set_item(id, to_python(py, links)?)?;
-        }
-        Ok(dict.into_any().unbind())
+        to_python(py, &graph)
     }
 
     /// What the map contains, and the problems in it.
@@ -102,8 +98,8 @@ impl Map {
     fn routes(
         &self,
         py: Python<'_>,
-        from_lanelet: i64,
-        to_lanelet: i64,
+        from_lanelet: GivenId,
+        to_lanelet: GivenId,
         most: usize,
         longest: f64,
     ) -> PyResult<Py<PyAny>> {
@@ -113,7 +109,7 @@ impl Map {
                 let remedy = "choose 1 or more for both";
                 return Err(Fault::new("routes", what, remedy).of_kind(FaultKind::Value).into());
             }
-            Ok(ways(&self.read, from_lanelet, to_lanelet, Sense { most, longest })?)
+            Ok(ways(&self.read, from_lanelet.0, to_lanelet.0, Sense { most, longest })?)
         })?;
         to_python(py, &found)
     }

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use crate::control::control;
 use crate::errors::{Failure, detached, locked, refused};
+use crate::id::GivenId;
 use crate::keys::Given;
 use crate::template::Template;
 use crate::values::{Signals, named, to_python};
@@ -147,20 +148,20 @@ impl Simulation {
 
     /// The ids of all lanelets.
     #[getter]
-    fn lanelets(&self, py: Python<'_>) -> PyResult<Vec<i64>> {
-        self.ask(py, laneweave::Simulation::lanelets)
+    fn lanelets(&self, py: Python<'_>) -> PyResult<Vec<GivenId>> {
+        self.ask(py, |it| it.lanelets().into_iter().map(GivenId).collect())
     }
 
     /// Where trips start, by the smallest lanelet id, with the demand there [veh/h].
     #[getter]
-    fn origins(&self, py: Python<'_>) -> PyResult<Vec<(i64, f64)>> {
-        self.ask(py, laneweave::Simulation::origins)
+    fn origins(&self, py: Python<'_>) -> PyResult<Vec<(GivenId, f64)>> {
+        self.ask(py, |it| it.origins().into_iter().map(|(id, demand)| (GivenId(id), demand)).collect())
     }
 
     /// Where trips can end, by the smallest lanelet id.
     #[getter]
-    fn destinations(&self, py: Python<'_>) -> PyResult<Vec<i64>> {
-        self.ask(py, laneweave::Simulation::destinations)
+    fn destinations(&self, py: Python<'_>) -> PyResult<Vec<GivenId>> {
+        self.ask(py, |it| it.destinations().into_iter().map(GivenId).collect())
     }
 
     /// The styles with their weights.
@@ -196,17 +197,16 @@ impl Simulation {
         self.tell(py, |it| it.vehicle(id))
     }
 
-    /// All vehicles as numpy arrays by the names of the columns of the table trajectories; with poses on request.
+    /// All vehicles as numpy arrays by the names of the columns of the table trajectories; with poses on request. The
+    /// array lanelet_index has places in the list of all lanelets.
     #[pyo3(signature = (poses = false))]
     fn columns<'py>(&self, py: Python<'py>, poses: bool) -> PyResult<Bound<'py, PyDict>> {
-        let (columns, lanelets) = self.ask(py, |it| {
+        let columns = self.ask(py, |it| {
             let mut columns = if poses { Columns::with_poses() } else { Columns::default() };
             it.columns(&mut columns);
-            let lanelets = &it.network().lanelets;
-            let ids: Vec<i64> = columns.lanelet.iter().map(|it| lanelets[*it as usize].id).collect();
-            (columns, ids)
+            columns
         })?;
-        crate::columns::dict(py, columns, lanelets, poses)
+        crate::columns::dict(py, columns, poses)
     }
 
     /// Puts a vehicle on the road, at once, and returns its id. Its own driver drives it.
@@ -215,17 +215,18 @@ impl Simulation {
     fn insert(
         &self,
         py: Python<'_>,
-        lanelet: i64,
+        lanelet: GivenId,
         position_m: f64,
         speed_mps: f64,
         class_: &str,
         style: Option<String>,
-        destination: Option<i64>,
+        destination: Option<GivenId>,
     ) -> PyResult<VehicleId> {
         let class: Class = named("class_", class_).map_err(|it| it.raise(py))?;
         self.with(py, |it| {
             let first = || it.styles().into_iter().next().map_or_else(String::new, |it| it.name);
             let style = style.unwrap_or_else(first);
+            let (lanelet, destination) = (lanelet.0, destination.map(|it| it.0));
             Ok(it.insert(NewVehicle { lanelet, position_m, speed_mps, class, style, destination })?)
         })
     }
@@ -279,13 +280,13 @@ impl Simulation {
 
     /// Gives the driver of a vehicle another destination; None: it follows the road.
     #[pyo3(signature = (id, destination))]
-    fn set_destination(&self, py: Python<'_>, id: VehicleId, destination: Option<i64>) -> PyResult<()> {
-        self.with(py, |it| Ok(it.set_destination(id, destination)?))
+    fn set_destination(&self, py: Python<'_>, id: VehicleId, destination: Option<GivenId>) -> PyResult<()> {
+        self.with(py, |it| Ok(it.set_destination(id, destination.map(|it| it.0))?))
     }
 
     /// Sets the demand at an entrance from now on [veh/h].
-    fn set_demand(&self, py: Python<'_>, origin: i64, vehicles_per_hour: f64) -> PyResult<()> {
-        self.with(py, |it| Ok(it.set_demand(origin, vehicles_per_hour)?))
+    fn set_demand(&self, py: Python<'_>, origin: GivenId, vehicles_per_hour: f64) -> PyResult<()> {
+        self.with(py, |it| Ok(it.set_demand(origin.0, vehicles_per_hour)?))
     }
 
     /// Sets the weight of a style among those of the drivers who arrive from now on.
@@ -301,8 +302,8 @@ impl Simulation {
 
     /// Closes a lanelet to all vehicles, or opens it again.
     #[pyo3(signature = (lanelet, is_closed = true))]
-    fn close_lanelet(&self, py: Python<'_>, lanelet: i64, is_closed: bool) -> PyResult<()> {
-        self.with(py, |it| Ok(it.close_lanelet(lanelet, is_closed)?))
+    fn close_lanelet(&self, py: Python<'_>, lanelet: GivenId, is_closed: bool) -> PyResult<()> {
+        self.with(py, |it| Ok(it.close_lanelet(lanelet.0, is_closed)?))
     }
 
     /// What a driver makes of its lanes and is about to do, in words; None if it is not on the road.

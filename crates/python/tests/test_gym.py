@@ -87,7 +87,7 @@ def test_what_is_given_is_put_into_what_an_environment_has(merge: Path) -> None:
         return gymnasium.make("laneweave/Merge-v0", **keys).unwrapped
 
     own = made().worlds.task
-    assert own["entrances"] == [20]
+    assert own["entrances"] == ["20"]
     assert made(task={"decision_s": 0.5}).worlds.task == {**own, "decision_s": 0.5}
     many = gymnasium.make_vec("laneweave/Merge-v0", num_envs=2, task={"limit_s": 30.0})
     assert many.unwrapped.worlds.task == {**own, "limit_s": 30.0}  # type: ignore[attr-defined]

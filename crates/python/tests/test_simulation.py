@@ -16,8 +16,10 @@ def test_columns_are_those_of_the_vehicles(ramps: Path) -> None:
     columns, vehicles = simulation.columns(poses=True), simulation.vehicles()
     assert len(vehicles) == len(simulation) > 20
     order = np.argsort(columns["vehicle"])
-    for name, key in [("vehicle", "id"), ("lanelet", "lanelet"), ("speed_mps", "speed_mps"), ("x_m", "x_m")]:
+    for name, key in [("vehicle", "id"), ("speed_mps", "speed_mps"), ("x_m", "x_m")]:
         assert columns[name][order].tolist() == [it[key] for it in vehicles]
+    lanelets = [simulation.lanelets[it] for it in columns["lanelet_index"][order]]
+    assert lanelets == [it["lanelet"] for it in vehicles] and {type(it) for it in lanelets} == {str}
     assert simulation.columns().keys() < columns.keys()
     assert columns["position_m"].dtype == np.float64 and columns["vehicle"].dtype == np.uint32
 
@@ -43,7 +45,9 @@ def test_lane_changes_have_their_reasons(ramps: Path) -> None:
 
 def test_an_ego_is_driven_and_given_back(ramps: Path) -> None:
     simulation = lw.Simulation(ramps, vehicles_per_hour=0, seed=1)
-    ego = simulation.insert(simulation.lanelets[0], 30.0, 20.0, style="conservative")
+    with pytest.raises(TypeError, match="an id is a str"):
+        simulation.insert(1.5, 30.0, 20.0)  # type: ignore[arg-type]
+    ego = simulation.insert(int(simulation.lanelets[0]), 30.0, 20.0, style="conservative")
     simulation.control(ego, speed_mps=12.0, lateral="keep")
     simulation.run(10.0)
     driven = simulation.vehicle(ego)

@@ -107,7 +107,7 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> 
     };
     let commands = scenario.commands.as_ref().map(|it| relative(it, dir)).transpose()?;
     let mut kept = Scenario { map, styles, commands, ..scenario.clone() };
-    for file in replayed_mut(&mut kept) {
+    for file in files_mut(&mut kept) {
         *file = relative(file, dir)?;
     }
     let toml = toml::to_string(&kept).map_err(|error| Fault::bug(SCENARIO, error))?;
@@ -116,11 +116,11 @@ pub fn keep(scenario: &Scenario, origin: &Origin, dir: &Path, command: &str) -> 
     Ok(text)
 }
 
-/// The files of the recording that `scenario` replays, if it does.
-fn replayed_mut(scenario: &mut Scenario) -> impl Iterator<Item = &mut PathBuf> {
+/// The files of the recording that `scenario` replays, if it does, and those of SUMO's vehicles.
+fn files_mut(scenario: &mut Scenario) -> impl Iterator<Item = &mut PathBuf> {
     let is_asked = scenario.replay.is_asked();
     let Replay { recording, columns, .. } = &mut scenario.replay;
-    recording.iter_mut().chain(columns).filter(move |_| is_asked)
+    recording.iter_mut().chain(columns).filter(move |_| is_asked).chain(scenario.sumo.files_mut())
 }
 
 /// The styles of `scenario` with copies of their files.
@@ -227,7 +227,7 @@ impl Fingerprints {
         hash.update(env!("CARGO_PKG_VERSION").as_bytes());
         let mut bare = Scenario { map: PathBuf::new(), styles: BTreeMap::new(), ..scenario.clone() };
         bare.commands = None;
-        replayed_mut(&mut bare).for_each(|it| *it = PathBuf::new());
+        files_mut(&mut bare).for_each(|it| *it = PathBuf::new());
         bare.output = Output::default();
         bare.run.threads = None;
         bare.map_options.max_size_mb = None;
@@ -237,7 +237,7 @@ impl Fingerprints {
             hash.update(text.as_bytes());
             hash.update(&weight.to_le_bytes());
         }
-        for file in replayed_mut(&mut scenario.clone()).chain(&mut scenario.commands.clone()) {
+        for file in files_mut(&mut scenario.clone()).chain(&mut scenario.commands.clone()) {
             hash.update(&self.of_file(file)?.to_le_bytes());
         }
         let map = match origin.built_in_map() {

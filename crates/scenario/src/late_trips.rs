@@ -1,6 +1,6 @@
 //! Trips with too little road for the lane changes of their route, in words.
 
-use laneweave_network::{Class, Classes, Network};
+use laneweave_network::{Class, Classes, Id, Network};
 use laneweave_sim::{LateTrip, Navigator, Place, Places, World};
 use serde::Serialize;
 
@@ -11,9 +11,9 @@ use crate::scenario::Demand;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Late {
     /// The id of its entrance.
-    pub from: i64,
+    pub from: Id,
     /// The id of its exit.
-    pub to: i64,
+    pub to: Id,
     /// The classes of vehicles for which this is so.
     pub classes: Vec<&'static str>,
 }

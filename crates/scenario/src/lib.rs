@@ -11,6 +11,7 @@ pub mod scenario;
 mod script;
 mod source;
 pub mod style;
+mod sumo;
 mod windows;
 
 pub use capacity::{Bottleneck, Capacity, Estimate};
@@ -21,4 +22,5 @@ pub use remarks::{Remark, remarks};
 pub use replay::{AtItsEnd, Departures, HandOver, Played, Player, Recorded, Start};
 pub use script::{COMMAND_COLUMNS, Script, Written, refused};
 pub use source::{Source, in_words};
+pub use sumo::Sumo;
 pub use windows::{Named, Windows, joined, open_windows};

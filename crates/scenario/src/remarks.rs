@@ -5,7 +5,9 @@ use std::fmt;
 
 use laneweave_maps::Map;
 use laneweave_models::Style;
-use laneweave_network::{Beside, Chain, ChainIndex, Classes, Lanelet, Network, Polyline, Position, Side};
+use laneweave_network::{
+    Beside, Chain, ChainIndex, Classes, Id, Lanelet, Network, Polyline, Position, Side, turn,
+};
 use laneweave_sim::{Place, Places};
 use laneweave_study::units::KMH_PER_MPS;
 use serde::Serialize;
@@ -154,8 +156,7 @@ fn shared_at_the_edge(network: &Network) -> Option<Remark> {
                 .map(|(chain, station)| network.lanelet_at(Position::new(chain, station)).0.id),
         )
     };
-    let found: Vec<[i64; 2]> =
-        network.entrances.iter().flat_map(|it| &it.chains).filter_map(shares).collect();
+    let found: Vec<[Id; 2]> = network.entrances.iter().flat_map(|it| &it.chains).filter_map(shares).collect();
     let [one, other] = *found.first()?;
     let what = format!(
         "entrance {one}{} has a conflict area at the edge of the map, such as with lanelet {other}: vehicles enter one after the \
@@ -172,11 +173,11 @@ fn narrow_lanes(network: &Network) -> Option<Remark> {
     let is_closed = |it: &&Chain| it.open[0][0] > it.open[0][1];
     // Its map lets long vehicles use it.
     let is_shut = |it: &&Chain| it.classes != network.lanelets[it.lanelets[0].at()].classes;
-    let closed: Vec<i64> = narrow().filter(is_closed).map(first_id).collect();
-    let shut: Vec<i64> = network.chains.iter().filter(is_shut).map(first_id).collect();
+    let closed: Vec<Id> = narrow().filter(is_closed).map(first_id).collect();
+    let shut: Vec<Id> = network.chains.iter().filter(is_shut).map(first_id).collect();
     let others = || narrow().filter(|it| !is_closed(it) && !is_shut(it));
-    let ends: Vec<i64> = others().filter(|it| !it.is_tight_for_long).map(first_id).collect();
-    let tight: Vec<i64> = others().filter(|it| it.is_tight_for_long).map(first_id).collect();
+    let ends: Vec<Id> = others().filter(|it| !it.is_tight_for_long).map(first_id).collect();
+    let tight: Vec<Id> = others().filter(|it| it.is_tight_for_long).map(first_id).collect();
     let parts = [
         (closed, "narrower than a car: no vehicle drives there"),
         (
@@ -253,12 +254,22 @@ fn extreme_limits(lanelets: &[Lanelet]) -> Option<Remark> {
     remark(what, "correct speed_limit if this is not intended")
 }
 
-/// Limits that change by more than half from one lanelet to the next.
+/// Whether a lanelet is a turn.
+fn turns(lanelet: &Lanelet) -> bool {
+    /// By this angle, a lanelet turns at least from its begin to its end [rad]; ours.
+    const TURN: f64 = 0.5;
+    let [begin, end] = [0.0, lanelet.length()].map(|it| lanelet.centre.heading(it));
+    turn(begin, end).abs() >= TURN
+}
+
+/// Limits that change by more than half from one lanelet to the next. A low limit in a turn is meant so.
 fn jumps(lanelets: &[Lanelet]) -> Option<Remark> {
     let pairs =
         lanelets.iter().flat_map(|it| it.following.iter().map(move |next| (it, &lanelets[next.at()])));
     let is_jump = |a: f64, b: f64| a.min(b) < JUMP * a.max(b);
-    let odd: Vec<_> = pairs.filter(|(a, b)| is_jump(a.speed_limit, b.speed_limit)).collect();
+    let is_meant = |a: &Lanelet, b: &Lanelet| turns(if a.speed_limit < b.speed_limit { a } else { b });
+    let odd: Vec<_> =
+        pairs.filter(|(a, b)| is_jump(a.speed_limit, b.speed_limit) && !is_meant(a, b)).collect();
     let (from, to) = odd.first()?;
     let what = format!(
         "in {} places the speed limit changes by more than half at once (lanelet {} to {}: {} to {}): vehicles bunch or spread \
@@ -303,7 +314,7 @@ fn short_entrances(network: &Network, places: &Places) -> Option<Remark> {
         };
         place.chains().iter().filter_map(short).min_by(|a, b| a.1.total_cmp(&b.1))
     });
-    let short: Vec<(i64, f64, f64)> = short.collect();
+    let short: Vec<(Id, f64, f64)> = short.collect();
     let (id, room, limit) = *short.first()?;
     let what = format!(
         "entrance {id}{} is {room:.0} m from where drivers may have to stop, at a speed limit of {}: vehicles enter more slowly, \

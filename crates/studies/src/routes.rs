@@ -1,8 +1,8 @@
 //! The sensible routes from one lanelet of a map to another, as plain data.
 
 use laneweave_maps::{By, Map, NodeIndex, Route, Sense, routes};
-use laneweave_network::LaneletIndex;
-use laneweave_scenario::{Fault, FaultKind};
+use laneweave_network::{Id, LaneletIndex};
+use laneweave_scenario::{Fault, FaultKind, did_you_mean};
 use serde::Serialize;
 
 /// A way: its lanelets in order. Of lanelets between which lanes are changed only the last counts as driven.
@@ -24,7 +24,7 @@ pub struct Way {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Leg {
     /// Its id.
-    pub id: i64,
+    pub id: Id,
     /// `following`, or the side of the lane change by which it is reached.
     pub by: &'static str,
     /// It is driven against its direction.
@@ -36,7 +36,7 @@ pub struct Leg {
 ///
 /// # Errors
 /// If there is no such lanelet.
-pub fn ways(map: &Map, from: i64, to: i64, sense: Sense) -> Result<Vec<Way>, Fault> {
+pub fn ways(map: &Map, from: Id, to: Id, sense: Sense) -> Result<Vec<Way>, Fault> {
     let [from, to] = [find(map, "FROM", from)?, find(map, "TO", to)?];
     // Two-way lanelets may be driven either way.
     let pairs = from.iter().flat_map(|from| to.iter().map(move |to| (*from, *to)));
@@ -47,7 +47,7 @@ pub fn ways(map: &Map, from: i64, to: i64, sense: Sense) -> Result<Vec<Way>, Fau
 }
 
 /// The nodes of the lanelet with this id.
-fn find(map: &Map, name: &str, id: i64) -> Result<Vec<NodeIndex>, Fault> {
+fn find(map: &Map, name: &str, id: Id) -> Result<Vec<NodeIndex>, Fault> {
     let lanelets = &map.network.lanelets;
     let place = lanelets.iter().position(|it| it.id == id).map(|it| it as u32);
     let nodes = place.map(|it| {
@@ -55,8 +55,8 @@ fn find(map: &Map, name: &str, id: i64) -> Result<Vec<NodeIndex>, Fault> {
         [NodeIndex(it)].into_iter().chain(backward).collect()
     });
     nodes.ok_or_else(|| {
-        let nearest = lanelets.iter().map(|it| it.id).min_by_key(|it| it.abs_diff(id)).unwrap_or_default();
-        let remedy = format!("choose one of its {} lanelets; the nearest id is {nearest}", lanelets.len());
+        let known: Vec<String> = lanelets.iter().map(|it| it.id.to_string()).collect();
+        let remedy = did_you_mean(&id.to_string(), known.iter().map(String::as_str));
         let fault = Fault::new(name, format!("this map has no lanelet {id} for vehicles"), remedy);
         fault.of_kind(FaultKind::NotFound)
     })

@@ -7,7 +7,7 @@ use laneweave::network::{
     Chain, ChainIndex, Classes, DrivingSide, Gate, InPlan, Lanelet, LaneletIndex, Light, Network, Point,
     Polyline, Sign,
 };
-use laneweave::{Side, network};
+use laneweave::{Id, Side, network};
 use serde::Serialize;
 
 /// Coordinates in a scene are rounded to this [m].
@@ -169,7 +169,7 @@ impl Frame {
     /// The arrows of the lanes of `gates`, at the first or at the `last` station.
     fn gates(&self, network: &Network, gates: &[Gate], last: bool) -> Vec<GateArrow> {
         let lanes = gates.iter().flat_map(|gate| gate.chains.iter().map(move |it| (gate.id, it)));
-        let arrow = |(id, chain): (i64, &ChainIndex)| {
+        let arrow = |(id, chain): (Id, &ChainIndex)| {
             let chain = network.chain(*chain);
             let station = if last { chain.length } else { 0.0 };
             let (at, heading) = (chain.centre.at(station), chain.centre.heading(station));

@@ -33,14 +33,6 @@ where
     }
 }
 
-/// The id of a lanelet.
-///
-/// # Errors
-/// How to find one.
-pub(super) fn id(text: &str) -> Result<i64, String> {
-    text.parse().map_err(|_| "an id is a whole number; laneweave check MAP --svg FILE shows them".into())
-}
-
 /// A seed.
 ///
 /// # Errors

@@ -4,15 +4,15 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
-use laneweave::Fault;
 use laneweave::maps::Sense;
 use laneweave::output::json;
 use laneweave::scenario::open_map;
+use laneweave::{Fault, Id};
 use laneweave_studies::routes::{Way, ways};
 use serde::Serialize;
 
 use super::check::Reading;
-use super::numbers::{id, number, whole};
+use super::numbers::{number, whole};
 use super::say;
 
 #[derive(Debug, Args)]
@@ -21,11 +21,11 @@ pub(crate) struct RoutesArguments {
     #[arg(value_hint = ValueHint::FilePath)]
     map: PathBuf,
     /// Id of the first lanelet; the routes start at its beginning.
-    #[arg(allow_negative_numbers = true, value_parser = id)]
-    from: i64,
+    #[arg(allow_negative_numbers = true)]
+    from: Id,
     /// Id of the last lanelet; the routes end at its end.
-    #[arg(allow_negative_numbers = true, value_parser = id)]
-    to: i64,
+    #[arg(allow_negative_numbers = true)]
+    to: Id,
     #[command(flatten)]
     reading: Reading,
     /// Largest number of routes to list.
@@ -64,7 +64,7 @@ impl RoutesArguments {
     }
 }
 
-fn text(ways: &[Way], from: i64, to: i64) -> String {
+fn text(ways: &[Way], from: Id, to: Id) -> String {
     if ways.is_empty() {
         return format!(
             "No route leads from lanelet {from} to lanelet {to}; `laneweave check` lists lanelets that are not connected.\n"

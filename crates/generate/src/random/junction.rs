@@ -1,5 +1,6 @@
 //! Junctions of streets of both directions, at any angle from 60 to 120°.
 
+use laneweave_network::Id;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::element::Built;
@@ -87,7 +88,7 @@ pub(super) fn new_arm(
 }
 
 /// Draws the paths between all arms, and returns them by the arm from which they come.
-fn ways(canvas: &mut Canvas, arms: &[Arm], limit_kmh: f64) -> Vec<Vec<i64>> {
+fn ways(canvas: &mut Canvas, arms: &[Arm], limit_kmh: f64) -> Vec<Vec<Id>> {
     let mut borders = Borders::default();
     let mut ways = Vec::new();
     for (from, arm) in arms.iter().enumerate() {
@@ -102,17 +103,17 @@ fn ways(canvas: &mut Canvas, arms: &[Arm], limit_kmh: f64) -> Vec<Vec<i64>> {
 }
 
 /// The street of the road has priority: its arm, and the opposite one if there is one.
-fn priority(canvas: &mut Canvas, arms: &[Arm], ways: &[Vec<i64>]) {
+fn priority(canvas: &mut Canvas, arms: &[Arm], ways: &[Vec<Id>]) {
     let of = |number: usize| {
         let own = std::iter::once(arms[number].arriving.lanelet);
-        own.chain(ways[number].iter().copied()).collect::<Vec<i64>>()
+        own.chain(ways[number].iter().copied()).collect::<Vec<Id>>()
     };
     let is_main = |it: &usize| {
         let turn = arms[*it].heading - arms[0].heading;
         libm::cos(turn).abs() > libm::cos(FRAC_PI_2 / 3.0)
     };
     let (main, others): (Vec<usize>, Vec<usize>) = (0..arms.len()).partition(is_main);
-    let first: Vec<i64> = main.into_iter().flat_map(of).collect();
+    let first: Vec<Id> = main.into_iter().flat_map(of).collect();
     for number in others {
         yielding(canvas, &[arms[number].arriving], first.clone(), of(number));
     }

@@ -23,6 +23,7 @@ mod stretch;
 mod strip;
 mod weave;
 
+use laneweave_network::Id;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -57,6 +58,13 @@ pub struct Element {
     pub lanelets: Range<i64>,
 }
 
+impl Element {
+    /// Whether a lanelet with this id is part of it.
+    pub fn has(&self, lanelet: Id) -> bool {
+        lanelet.number().is_some_and(|it| self.lanelets.contains(&it))
+    }
+}
+
 impl RandomMap {
     /// Its difficulties, each kind once, in the order of [`Hazard::ALL`].
     pub fn hazards(&self) -> BTreeSet<Hazard> {
@@ -72,9 +80,9 @@ impl RandomMap {
     /// Whether a vehicle can enter it at a place where the other direction does not need the same area.
     fn has_clear_entrance(&self) -> bool {
         let Ok(Map { network, .. }) = self.drawing.build() else { return false };
-        let is_shared = |id: i64| {
+        let is_shared = |id: Id| {
             let mut elements = self.elements.iter();
-            let hazard = elements.find(|it| it.lanelets.contains(&id)).and_then(|it| it.hazard);
+            let hazard = elements.find(|it| it.has(id)).and_then(|it| it.hazard);
             matches!(hazard, Some(Hazard::OneLaneStreet | Hazard::PartialOverlap))
         };
         let chains = network.entrances.iter().flat_map(|it| &it.chains);

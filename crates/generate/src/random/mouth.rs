@@ -1,6 +1,6 @@
 //! Mouths: cross-sections at which elements are joined.
 
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Id, Point, Pose};
 
 use crate::canvas::Canvas;
 use crate::street::LaneEnd;
@@ -34,7 +34,7 @@ pub(super) struct Mouth {
     /// Its lanes, from left to right.
     pub(super) spans: Vec<Span>,
     /// The lanelets that end or begin here, one for each lane; none at the edge of the map.
-    pub(super) lanelets: Vec<i64>,
+    pub(super) lanelets: Vec<Id>,
     /// Speed limit [km/h].
     pub(super) limit_kmh: f64,
 }

@@ -1,7 +1,7 @@
 //! Stretches: lanes along a path between lines that may converge or diverge.
 
 use laneweave_maps::drawing::{Crossing, Edge, KMH_PER_MPS, Surroundings};
-use laneweave_network::Pose;
+use laneweave_network::{Id, Pose};
 
 use super::dice::Dice;
 use super::mouth::{Knot, Mouth, Span};
@@ -164,7 +164,7 @@ impl Pen {
     }
 
     /// Draws the lanelets between two rows of points, and returns them.
-    fn piece(&mut self, stretch: &Stretch, [begin, end]: [&[u32]; 2], between: &[f64]) -> Vec<i64> {
+    fn piece(&mut self, stretch: &Stretch, [begin, end]: [&[u32]; 2], between: &[f64]) -> Vec<Id> {
         let mut borders: Vec<u32> = Vec::new();
         for (number, line) in stretch.lines.iter().enumerate() {
             let mut before = stretch.lines[..number].iter();

@@ -106,15 +106,15 @@ fn rules_of_all_kinds_are_read_again_as_they_were() {
     let line = |x: f64, z: f64| vec![vec![Point::new(x, -3.5, z), Point::new(x, 0.0, z)]];
     let kinds = [
         RuleKind::TrafficLight,
-        RuleKind::RightOfWay { first: vec![1, 3], yielding: vec![2] },
-        RuleKind::AllWayStop { lanelets: vec![1, 2] },
+        RuleKind::RightOfWay { first: vec![1.into(), 3.into()], yielding: vec![2.into()] },
+        RuleKind::AllWayStop { lanelets: vec![1.into(), 2.into()] },
         RuleKind::StopSign,
-        RuleKind::Crosswalk { lanelets: vec![4] },
+        RuleKind::Crosswalk { lanelets: vec![4.into()] },
         RuleKind::Other("virtual_stop".into()),
     ];
     let rules = kinds.into_iter().zip(100..).map(|(kind, id)| {
         let (stop_lines, signs) = (line(id as f64, 0.0), line(id as f64, 5.0));
-        Rule { id, line: None, kind, lanelets: vec![1, 2], stop_lines, signs }
+        Rule { id: id.into(), line: None, kind, lanelets: vec![1.into(), 2.into()], stop_lines, signs }
     });
     let road = motorway(&Motorway { length_m: 300.0, ..Motorway::default() }).unwrap();
     let drawing = Drawing { rules: rules.collect(), ..road };

@@ -79,7 +79,7 @@ fn lanes_are_wide_enough_for_a_car_but_for_strips_and_where_they_end() {
         let random = random(seed);
         let map = read(&random);
         for element in random.elements.iter().filter(|it| it.hazard != Some(Hazard::Strip)) {
-            for lanelet in map.network.lanelets.iter().filter(|it| element.lanelets.contains(&it.id)) {
+            for lanelet in map.network.lanelets.iter().filter(|it| element.has(it.id)) {
                 let [left, right] = [&lanelet.left_border, &lanelet.right_border];
                 let widths =
                     [0.0, 1.0].map(|it| left.at(it * left.length()).distance(&right.at(it * right.length())));
@@ -111,11 +111,7 @@ fn lanelets_share_ground_inside_of_elements_that_are_meant_to_only() {
         let map = read(&random);
         let element = |it: LaneletIndex| -> &Element {
             let id = map.network.lanelets[it.at()].id;
-            random
-                .elements
-                .iter()
-                .find(|it| it.lanelets.contains(&id))
-                .expect("every lanelet is of an element")
+            random.elements.iter().find(|it| it.has(id)).expect("every lanelet is of an element")
         };
         for (here, others) in (0..).zip(&map.graph.conflicting) {
             let here = element(LaneletIndex(here));

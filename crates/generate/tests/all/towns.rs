@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use laneweave_generate::{Arterial, Control, Grid, Roundabout, approach, arterial, grid, roundabout, town};
 use laneweave_maps::{Drawing, Map, NodeIndex, RuleKind, Sense, lanelet2, routes};
-use laneweave_network::{Beside, DrivingSide, Gate, Lanelet, LaneletIndex, Polyline, Side};
+use laneweave_network::{Beside, DrivingSide, Gate, Id, Lanelet, LaneletIndex, Polyline, Side};
 
 /// Limits of streets, of the roundabout, and of the motorway [m/s].
 const STREET: f64 = 50.0 / 3.6;
@@ -39,7 +39,8 @@ fn towns() -> Vec<Map> {
     drawings.iter().map(map).collect()
 }
 
-fn lanelet(map: &Map, id: i64) -> &Lanelet {
+fn lanelet(map: &Map, id: impl Into<Id>) -> &Lanelet {
+    let id = id.into();
     map.network.lanelets.iter().find(|it| it.id == id).expect("the lanelet is there")
 }
 
@@ -240,11 +241,11 @@ fn at_a_priority_junction_who_comes_from_north_or_south_gives_way() {
         let RuleKind::RightOfWay { first, yielding } = &rule.kind else { panic!("{rule:?}") };
         // An approach and its three movements; two of these have priority.
         assert_eq!((first.len(), yielding.len(), rule.lanelets.len(), rule.stop_lines.len()), (8, 4, 12, 1));
-        let is_along_east = |id: &i64| lanelet(&map, *id).centre.heading(0.0).cos().abs() > 0.9;
+        let is_along_east = |id: &Id| lanelet(&map, *id).centre.heading(0.0).cos().abs() > 0.9;
         assert!(first.iter().all(is_along_east) && !yielding.iter().any(is_along_east));
         assert!(rule.stop_lines[0].iter().all(|it| (it.y.abs() - 11.625).abs() < 1e-9));
         // Every lanelet that gives way crosses one with priority.
-        let index = |id: i64| map.network.lanelets.iter().position(|it| it.id == id).unwrap();
+        let index = |id: Id| map.network.lanelets.iter().position(|it| it.id == id).unwrap();
         for way in &yielding[1..] {
             let conflicting = &map.graph.conflicting[index(*way)];
             assert!(first.iter().any(|it| conflicting.contains(&LaneletIndex(index(*it) as u32))));
@@ -276,7 +277,7 @@ fn every_way_into_a_roundabout_gives_way_to_the_ring() {
         assert!(first.iter().all(|it| lanelet(&map, *it).speed_limit == RING));
         let [street, way_in] = &yielding[..] else { panic!("{yielding:?}") };
         assert_eq!(lanelet(&map, *street).speed_limit, STREET);
-        let onto = |id: i64| lanelet(&map, id).following.clone();
+        let onto = |id: Id| lanelet(&map, id).following.clone();
         // The piece of the circulating lane before the arm, then the one in front of it, which leads onto the same
         // lanelet as the entry.
         assert_eq!(onto(first[1]).last(), onto(*way_in).last());

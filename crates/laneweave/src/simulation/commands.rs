@@ -4,7 +4,7 @@
 //! vehicle is on the road at once. The order of commands between two steps changes nothing.
 
 use laneweave_models::Parameter;
-use laneweave_network::LightState;
+use laneweave_network::{Id, LightState};
 use laneweave_scenario::{Fault, refused};
 use laneweave_sim::{Command, Control, NewVehicle, Placement, VehicleId};
 
@@ -53,7 +53,7 @@ impl Simulation {
     /// # Errors
     /// If the vehicle is not on the road, if there is no such destination, if no route leads there, or if the vehicle
     /// has such a command in this step.
-    pub fn set_destination(&mut self, id: VehicleId, destination: Option<i64>) -> Result<(), Fault> {
+    pub fn set_destination(&mut self, id: VehicleId, destination: Option<Id>) -> Result<(), Fault> {
         self.for_vehicle("set_destination", id, Command::SetDestination(id, destination))
     }
 
@@ -62,7 +62,8 @@ impl Simulation {
     /// # Errors
     /// If there is no such entrance, if the demand is not in its range, or if the entrance has such a command in this
     /// step.
-    pub fn set_demand(&mut self, origin: i64, vehicles_per_hour: f64) -> Result<(), Fault> {
+    pub fn set_demand(&mut self, origin: impl Into<Id>, vehicles_per_hour: f64) -> Result<(), Fault> {
+        let origin = origin.into();
         let command = Command::SetDemand { origin, vehicles_per_hour };
         self.command(&format!("set_demand of origin {origin}"), command).map(|_| ())
     }
@@ -83,7 +84,8 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such light, or if it has such a command in this step.
-    pub fn set_light(&mut self, light: i64, shows: Option<LightState>) -> Result<(), Fault> {
+    pub fn set_light(&mut self, light: impl Into<Id>, shows: Option<LightState>) -> Result<(), Fault> {
+        let light = light.into();
         let command = Command::SetLight { light, shows };
         self.command(&format!("set_light of light {light}"), command).map(|_| ())
     }
@@ -94,7 +96,8 @@ impl Simulation {
     /// # Errors
     /// If there is no such light, if it has no plan, if traffic extends the greens of the plan, if the offset is not
     /// between 0 and 86,400 s, or if the plan of the light has such a command in this step.
-    pub fn set_offset(&mut self, light: i64, offset_s: f64) -> Result<(), Fault> {
+    pub fn set_offset(&mut self, light: impl Into<Id>, offset_s: f64) -> Result<(), Fault> {
+        let light = light.into();
         self.command(&format!("set_offset of light {light}"), Command::SetOffset { light, offset_s })
             .map(|_| ())
     }
@@ -105,7 +108,8 @@ impl Simulation {
     /// # Errors
     /// If there is no such lanelet, if drivers could not leave its lane before it, or if it has such a command in this
     /// step.
-    pub fn close_lanelet(&mut self, lanelet: i64, is_closed: bool) -> Result<(), Fault> {
+    pub fn close_lanelet(&mut self, lanelet: impl Into<Id>, is_closed: bool) -> Result<(), Fault> {
+        let lanelet = lanelet.into();
         let command = Command::CloseLanelet { lanelet, is_closed };
         self.command(&format!("close_lanelet of lanelet {lanelet}"), command).map(|_| ())
     }

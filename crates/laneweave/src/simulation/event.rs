@@ -1,6 +1,6 @@
 //! What happened in a step, in the words of the road.
 
-use laneweave_network::{Network, Position, Side};
+use laneweave_network::{Id, Network, Position, Side};
 use laneweave_sim::{
     self as sim, BrakingCause, Class, DrivingEventKind, IncidentKind, LaneChangeKind, VehicleId, World,
 };
@@ -62,7 +62,7 @@ pub struct Occurrence {
     /// Time [s].
     pub time_s: f64,
     /// The id of the lanelet on which its front bumper was.
-    pub lanelet: i64,
+    pub lanelet: Id,
     /// Position of its front bumper along the lanelet [m].
     pub position_m: f64,
 }
@@ -81,9 +81,9 @@ pub struct LaneChange {
     /// Time from the beginning to the end of the lateral motion [s].
     pub duration_s: f64,
     /// The id of the old lanelet.
-    pub from_lanelet: i64,
+    pub from_lanelet: Id,
     /// The id of the new lanelet.
-    pub to_lanelet: i64,
+    pub to_lanelet: Id,
     /// The style of its driver.
     pub style: String,
     /// The side to which it changed.
@@ -126,7 +126,7 @@ pub struct Incident {
     /// The two vehicles, the smaller id first.
     pub vehicles: [VehicleId; 2],
     /// The ids of the lanelets on which their front bumpers are.
-    pub lanelets: [i64; 2],
+    pub lanelets: [Id; 2],
     /// Positions of their front bumpers along the lanelets [m].
     pub positions_m: [f64; 2],
     /// Their speeds [m/s].

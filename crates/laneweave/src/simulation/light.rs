@@ -1,6 +1,6 @@
 //! Traffic lights.
 
-use laneweave_network::{LightIndex, LightState};
+use laneweave_network::{Id, LightIndex, LightState};
 use serde::{Deserialize, Serialize};
 
 use super::Simulation;
@@ -9,7 +9,7 @@ use super::Simulation;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Light {
     /// Its id: the smallest id of its regulatory elements.
-    pub id: i64,
+    pub id: Id,
     /// What it shows.
     pub state: LightState,
 }

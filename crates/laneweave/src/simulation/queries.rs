@@ -1,6 +1,6 @@
 //! Questions about the traffic, which change nothing.
 
-use laneweave_network::{Position, Rectangle};
+use laneweave_network::{Id, Position, Rectangle};
 use laneweave_scenario::Fault;
 use laneweave_sim::{Columns, Intention, Rows, Scene, Vehicle, VehicleId};
 
@@ -51,8 +51,8 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such lanelet.
-    pub fn vehicles_on(&self, lanelet: i64) -> Result<Vec<VehicleState>, Fault> {
-        let (world, network) = (self.world(), self.network());
+    pub fn vehicles_on(&self, lanelet: impl Into<Id>) -> Result<Vec<VehicleState>, Fault> {
+        let (world, network, lanelet) = (self.world(), self.network(), lanelet.into());
         let index = network.lanelet_with(lanelet).ok_or_else(|| {
             let what = format!("there is no lanelet {lanelet}");
             Fault::new("vehicles_on", what, "choose one that vehicles may use")
@@ -66,7 +66,7 @@ impl Simulation {
     }
 
     /// The ids of all lanelets, in the order of the indices in [`Columns::lanelet`].
-    pub fn lanelets(&self) -> Vec<i64> {
+    pub fn lanelets(&self) -> Vec<Id> {
         self.network().lanelets.iter().map(|it| it.id).collect()
     }
 

@@ -2,7 +2,7 @@
 //! reads what it has set.
 
 use laneweave_models::{Parameter, Style};
-use laneweave_network::LightState;
+use laneweave_network::{Id, LightState};
 use laneweave_sim::{Commanded, Control, Place, VehicleId};
 
 use super::Simulation;
@@ -49,7 +49,7 @@ impl Simulation {
     }
 
     /// Where trips start, by the smallest lanelet id, with the demand there now [veh/h].
-    pub fn origins(&self) -> Vec<(i64, f64)> {
+    pub fn origins(&self) -> Vec<(Id, f64)> {
         let places = self.world().demand().origins.iter().map(|it| it.place.id());
         places.filter_map(|id| Some((id, self.demand_at(id)?))).collect()
     }
@@ -61,37 +61,37 @@ impl Simulation {
     }
 
     /// Where trips can end, by the smallest lanelet id.
-    pub fn destinations(&self) -> Vec<i64> {
+    pub fn destinations(&self) -> Vec<Id> {
         self.world().demand().exits().iter().map(Place::id).collect()
     }
 
     /// Whether a trip can lead from one of the [`Simulation::origins`] to one of the [`Simulation::destinations`].
-    pub fn leads(&self, origin: i64, destination: i64) -> bool {
+    pub fn leads(&self, origin: impl Into<Id>, destination: impl Into<Id>) -> bool {
         let [origins, destinations] = self.places();
-        let [from, to] = [(origins, origin), (destinations, destination)]
+        let [from, to] = [(origins, origin.into()), (destinations, destination.into())]
             .map(|(places, id)| places.iter().position(|it| it.id() == id));
         from.zip(to).is_some_and(|(from, to)| self.world().leads(from, to))
     }
 
     /// The demand at an entrance now [veh/h]. `None` if there is no such entrance.
-    pub fn demand_at(&self, origin: i64) -> Option<f64> {
-        self.world().demand_at(origin)
+    pub fn demand_at(&self, origin: impl Into<Id>) -> Option<f64> {
+        self.world().demand_at(origin.into())
     }
 
     /// What a user makes a light show, whatever its program says; the inner `None` if its program decides. `None` if
     /// there is no such light.
-    pub fn light_override(&self, light: i64) -> Option<Option<LightState>> {
-        self.world().light_override(light)
+    pub fn light_override(&self, light: impl Into<Id>) -> Option<Option<LightState>> {
+        self.world().light_override(light.into())
     }
 
     /// The offset of the signal plan of a light [s]. `None` if it has no plan.
-    pub fn offset(&self, light: i64) -> Option<f64> {
-        self.world().offset(light)
+    pub fn offset(&self, light: impl Into<Id>) -> Option<f64> {
+        self.world().offset(light.into())
     }
 
     /// Whether a lanelet is closed. `None` if there is no such lanelet.
-    pub fn is_closed(&self, lanelet: i64) -> Option<bool> {
-        self.world().is_closed(lanelet)
+    pub fn is_closed(&self, lanelet: impl Into<Id>) -> Option<bool> {
+        self.world().is_closed(lanelet.into())
     }
 
     /// How a user drives a vehicle; [`Control::DRIVER`] if its driver does.

@@ -1,6 +1,6 @@
 //! The state of a vehicle, as plain data.
 
-use laneweave_network::Position;
+use laneweave_network::{Id, Position};
 use laneweave_sim::{Class, Phase, Vehicle, VehicleId, World};
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct VehicleState {
     /// The style of its driver.
     pub style: String,
     /// The id of the lanelet on which its front bumper is.
-    pub lanelet: i64,
+    pub lanelet: Id,
     /// Position of its front bumper along the lanelet [m].
     pub position_m: f64,
     /// Distance of its centre to the left of the centre of the lane [m].
@@ -38,7 +38,7 @@ pub struct VehicleState {
     /// The phase of its lane change.
     pub state: Phase,
     /// The id of its destination: the smallest id of its lanelets. `None`: it follows the road.
-    pub destination: Option<i64>,
+    pub destination: Option<Id>,
     /// Whether a user drives it.
     pub is_external: bool,
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use laneweave::{
-    Class, Columns, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
+    Class, Columns, Control, Fault, Id, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
     Simulation, VehicleId,
 };
 use laneweave_scenario::scenario::Demand;
@@ -63,8 +63,8 @@ impl Numbers {
 
 /// What a call may name: some exist, some do not.
 struct Names {
-    lanelets: Vec<i64>,
-    lights: Vec<i64>,
+    lanelets: Vec<Id>,
+    lights: Vec<Id>,
     vehicles: Vec<VehicleId>,
 }
 
@@ -73,8 +73,11 @@ impl Names {
         let lanelets = simulation.network().lanelets.iter().map(|it| it.id);
         let lights = simulation.lights().into_iter().map(|it| it.id);
         Names {
-            lanelets: lanelets.chain([0, -1, i64::MIN, i64::MAX]).collect(),
-            lights: lights.chain([0, -1, i64::MAX]).collect(),
+            lanelets: lanelets
+                .chain([0, -1, i64::MIN, i64::MAX].map(Id::from))
+                .chain(["", "edge_0"].map(Id::from))
+                .collect(),
+            lights: lights.chain([0, -1, i64::MAX].map(Id::from)).collect(),
             vehicles: vec![0, VehicleId::MAX],
         }
     }

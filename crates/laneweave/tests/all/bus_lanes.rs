@@ -28,7 +28,7 @@ fn buses_of_a_line_arrive_and_cars_are_never_in_their_lane() {
     let street = Arterial { junctions: 4, bus_lanes: true, ..Arterial::default() };
     let drawing = arterial(&street).expect("it can be made");
     // Stops in the lanes to the east, one between two junctions each.
-    let stop = |lanelet| Stop { lanelet, position_m: 40.0, rest_s: 20.0 };
+    let stop = |lanelet: i64| Stop { lanelet: lanelet.into(), position_m: 40.0, rest_s: 20.0 };
     let line = Line {
         name: None,
         class: Class::Bus,

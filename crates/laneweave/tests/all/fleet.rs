@@ -1,7 +1,7 @@
 //! Many simulations that are stepped together.
 
 use laneweave::{
-    Class, Columns, Control, Fleet, Lateral, Longitudinal, NewVehicle, Rows, SIGHT_COLUMNS, Simulation,
+    Class, Columns, Control, Fleet, Id, Lateral, Longitudinal, NewVehicle, Rows, SIGHT_COLUMNS, Simulation,
     Template, VehicleId,
 };
 use laneweave_test_data::map;
@@ -11,7 +11,7 @@ fn template() -> Template {
     builder.template().expect("the map is sound")
 }
 
-fn ego(simulation: &mut Simulation, lanelet: i64) -> VehicleId {
+fn ego(simulation: &mut Simulation, lanelet: Id) -> VehicleId {
     let vehicle = NewVehicle {
         lanelet,
         position_m: 50.0,

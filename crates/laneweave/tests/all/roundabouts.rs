@@ -17,7 +17,7 @@ fn leaving(scenario: &Scenario, exits: [i64; 2]) -> [f64; 2] {
             let Event::Left { chain, .. } = event else { continue };
             let network = world.network();
             let gate = network.exits.iter().find(|it| it.chains.contains(chain));
-            let exit = gate.and_then(|gate| exits.iter().position(|it| *it == gate.id));
+            let exit = gate.and_then(|gate| exits.iter().position(|it| gate.id == *it));
             exit.into_iter().for_each(|it| left[it] += 60.0 / f64::from(minutes));
         }
     }

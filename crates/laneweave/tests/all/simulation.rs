@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use laneweave::generate::{Motorway, motorway};
 use laneweave::{
-    Class, Columns, Control, Event, Fault, Light, LightState, NewVehicle, Phase, Side, Simulation,
+    Class, Columns, Control, Event, Fault, Id, Light, LightState, NewVehicle, Phase, Side, Simulation,
     VehicleState,
 };
 use laneweave_scenario::scenario::{Demand, Origin, Scenario, prepare};
@@ -144,7 +144,7 @@ fn lane_changes_lead_from_lanelet_to_the_lanelet_beside() {
         for event in simulation.step() {
             let Event::LaneChange(it) = event else { continue };
             let network = simulation.network();
-            let y = |id: i64| {
+            let y = |id: Id| {
                 let index = network.lanelet_with(id).expect("it is on the map");
                 network.lanelets[index.at()].centre.at(0.0).y
             };
@@ -204,7 +204,7 @@ fn a_generated_map_is_driven_without_a_file() {
 fn a_vehicle_driven_by_poses_is_told_in_the_words_of_the_road_and_in_columns() {
     let mut simulation = builder("motorway_2_lanes.osm", 0.0).build().expect("it is a map");
     let new = NewVehicle {
-        lanelet: 5,
+        lanelet: 5.into(),
         position_m: 50.0,
         speed_mps: 25.0,
         class: Class::Car,

@@ -1,5 +1,6 @@
 //! Turning shares: drivers follow the turning counts of junctions.
 
+use laneweave_network::Id;
 use std::f64::consts::FRAC_PI_6;
 
 use laneweave::network::{Gate, Network, Sections};
@@ -125,7 +126,7 @@ fn shares_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
     let turns = Turns { from, left: 1.0, straight: 1.0, right: 1.0 };
     for (turns, message) in [
         (
-            vec![Turns { from: 4711, ..turns }],
+            vec![Turns { from: 4711.into(), ..turns }],
             "turns.0.from: the map has no lanelet 4711 for vehicles; give a lanelet of the road to the junction".into(),
         ),
         (
@@ -170,7 +171,7 @@ fn a_share_of_a_way_that_is_not_there_is_refused_with_the_ways_that_are() {
 fn of_a_road_whose_lanes_are_entrances_of_their_own_each_has_the_shares_of_where_it_leads() {
     // From -101121 beside it there is no route to the left: the scenario is refused unless there is another
     // destination, or no demand.
-    let turns = Turns { from: -101_122, left: 1.0, straight: 0.0, right: 0.0 };
+    let turns = Turns { from: Id::from(-101_122), left: 1.0, straight: 0.0, right: 0.0 };
     let Some(map) = data("lanelet2/tianjin.osm") else { return };
     let mut scenario = Scenario { turns: vec![turns], ..Scenario::of_map(map) };
     let fault = prepare(&scenario, &Origin::default()).err().expect("refused");

@@ -160,7 +160,7 @@ fn what_cannot_be_is_refused_with_a_remedy() {
         (new(Task { decision_s: 0.25, ..usual() }, &[1]), "choose a multiple of the step of 0.1 s"),
         (new(Task { limit_s: f64::NAN, ..usual() }, &[1]), "choose a multiple"),
         (new(usual(), &[]), "give one for each world"),
-        (new(Task { entrances: vec![12345], ..usual() }, &[1]), "name entrances"),
+        (new(Task { entrances: vec![12345.into()], ..usual() }, &[1]), "name entrances"),
         (Batch::new(Vec::new(), usual(), &[1], 1).err(), "give one or more"),
         (Batch::new(populations("ramps.osm"), short(usual()), &[1], 0).err(), "choose 1 to 256"),
         (Batch::new(populations("ramps.osm"), short(usual()), &[1], 1_000_000).err(), "choose 1 to 256"),

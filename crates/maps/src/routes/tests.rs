@@ -1,3 +1,4 @@
+use laneweave_network::Id;
 use std::path::Path;
 
 use super::*;
@@ -24,7 +25,7 @@ fn a_road_is_one_way_whatever_lanes_are_changed() {
     assert_eq!(found[0].steps.iter().filter(|it| it.by == By::Left).count(), 1);
     assert_eq!(found[0].steps.iter().filter(|it| it.by == By::Right).count(), 0);
     let straight = &routes(&map, node(&map, 2), node(&map, 50), Sense::default())[0];
-    let ids: Vec<i64> = straight
+    let ids: Vec<Id> = straight
         .steps
         .iter()
         .map(|it| map.network.lanelets[map.graph.nodes[it.node.at()].lanelet.at()].id)
@@ -35,7 +36,7 @@ fn a_road_is_one_way_whatever_lanes_are_changed() {
 #[test]
 fn cars_go_round_a_lanelet_that_is_not_for_them() {
     let mut map = map("motorway_2_lanes.osm");
-    let ids = |map: &Map| -> Vec<i64> {
+    let ids = |map: &Map| -> Vec<Id> {
         let found = routes(map, node(map, 1), node(map, 49), Sense::default());
         let nodes = found.iter().flat_map(|it| &it.steps).map(|it| &map.graph.nodes[it.node.at()]);
         nodes.map(|it| map.network.lanelets[it.lanelet.at()].id).collect()

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use laneweave_maps::{Map, MapError, ReadOptions, lanelet2, load};
-use laneweave_network::DrivingSide;
+use laneweave_network::{DrivingSide, Id};
 use laneweave_test_data::data;
 
 /// Two lanes of 10 m, of which each test breaks something.
@@ -29,7 +29,7 @@ fn read(text: &str) -> Result<Map, MapError> {
 }
 
 /// The problems after the replacement of `from` by `to`, and the ids of the remaining lanelets.
-fn broken(from: &str, to: &str) -> (Vec<String>, Vec<i64>) {
+fn broken(from: &str, to: &str) -> (Vec<String>, Vec<Id>) {
     assert!(TWO_LANES.contains(from), "{from}");
     let map = read(&TWO_LANES.replacen(from, to, 1)).expect("one lanelet is left");
     let ids = map.network.lanelets.iter().map(|it| it.id).collect();
@@ -126,7 +126,7 @@ fn elements_that_share_an_id_are_listed() {
         one("relation id='22'", "relation id='21'").starts_with("relation 21 (line 13): another relation")
     );
     let (problems, ids) = broken("<node id='6'", "<node id='1' x='3' y='3'/>\n<node id='6'");
-    assert_eq!((problems.len(), ids), (1, vec![21, 22]));
+    assert_eq!((problems.len(), ids), (1, vec![21.into(), 22.into()]));
     assert!(problems[0].starts_with("node 1 (line 7): another node above"), "{problems:?}");
 }
 
@@ -146,7 +146,7 @@ fn limits_and_directions_that_cannot_be_used_are_listed_but_the_lane_stays() {
 #[test]
 fn lanelets_that_are_not_for_vehicles_are_left_out_and_named() {
     let (problems, ids) = broken("<tag k='speed_limit' v='36'/>", "<tag k='subtype' v='walkway'/>");
-    assert_eq!((problems.len(), ids), (1, vec![21]));
+    assert_eq!((problems.len(), ids), (1, vec![21.into()]));
     assert!(problems[0].starts_with("lanelet 22 (line 13): lanelets of the subtype walkway, 1 in all: no"));
 }
 

@@ -79,7 +79,7 @@ fn lanes_and_connections_become_lanelets() {
     assert_eq!(beside(MAIN), [at(BUS), None, None, None]);
     assert_eq!(beside(BUS), [None, at(MAIN), None, None]);
     assert_eq!(beside(OUT_LEFT), [None, at(OUT), None, None]);
-    assert_eq!(lanelets[BUS].classes.names(), "bus, taxi");
+    assert_eq!(lanelets[BUS].classes.names(), "bus, taxi, emergency");
     assert_eq!(lanelets[BUS_ON].classes, lanelets[BUS].classes);
     assert!(lanelets[MAIN].classes.has(Class::Car) && lanelets[JOIN].classes.has(Class::Truck));
     let near = |a: f64, b: f64| (a - b).abs() < 1e-9;

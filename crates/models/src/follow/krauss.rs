@@ -6,7 +6,8 @@
 //! v(t + τ) = min(v + aτ, v₀, v_safe),  v_safe = −bτ + √(b²τ² + v_l² + 2b(s − s₀))
 //!
 //! v_safe solves v_safe = v_l + (s − s₀ − v_l τ) / ((v_safe + v_l)/2b + τ), in which Krauss has v on the right-hand
-//! side. As an acceleration: [v(t + τ) − v] / τ.
+//! side. As an acceleration: [v(t + τ) − v] / τ. SUMO's drivers adopt the safe speed at once, in one step of theirs:
+//! [min(v + a t_a, v₀, v_safe) − v] / t_a.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,11 +25,13 @@ pub struct Krauss {
     pub time_gap: f64,
     /// s₀: gap kept at standstill [m].
     pub jam_gap: f64,
+    /// t_a: time in which the speed is adopted [s]; 0: it is τ.
+    pub adaptation: f64,
 }
 
 impl Default for Krauss {
     fn default() -> Krauss {
-        Krauss { acceleration: 2.6, deceleration: 4.5, time_gap: 1.0, jam_gap: 2.5 }
+        Krauss { acceleration: 2.6, deceleration: 4.5, time_gap: 1.0, jam_gap: 2.5, adaptation: 0.0 }
     }
 }
 
@@ -44,8 +47,9 @@ impl Krauss {
 
 impl CarFollowing for Krauss {
     fn acceleration(&self, pace: Pace, ahead: Option<Ahead>) -> f64 {
-        let reachable = (pace.speed + self.acceleration * self.time_gap).min(pace.desired);
+        let time = if self.adaptation > 0.0 { self.adaptation } else { self.time_gap };
+        let reachable = (pace.speed + self.acceleration * time).min(pace.desired);
         let safe = ahead.map_or(f64::INFINITY, |ahead| self.safe(pace, ahead));
-        (reachable.min(safe) - pace.speed) / self.time_gap
+        (reachable.min(safe) - pace.speed) / time
     }
 }

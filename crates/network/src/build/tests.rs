@@ -40,8 +40,8 @@ fn lanelets_join_to_chains_with_what_lies_beside() {
 fn a_lane_that_ends_beside_another_is_a_drop_and_no_exit() {
     let network = lane_drop();
     let names = |gates: &[Gate]| gates.iter().map(|g| (g.id, g.chains.len())).collect::<Vec<_>>();
-    assert_eq!(names(&network.entrances), [(10, 2)]);
-    assert_eq!(names(&network.exits), [(12, 1)]);
+    assert_eq!(names(&network.entrances), [(10.into(), 2)]);
+    assert_eq!(names(&network.exits), [(12.into(), 1)]);
     assert_eq!(network.lane_drops, [ChainIndex(1)]);
 }
 
@@ -69,5 +69,5 @@ fn lanelets_that_make_no_network_are_refused() {
     assert_eq!(Network::new(vec![], DrivingSide::Right).err(), Some(NetworkError::Empty));
     let mut one = lanelet(7, 0.0, 10.0, 0.0);
     one.following = vec![LaneletIndex(3)];
-    assert_eq!(Network::new(vec![one], DrivingSide::Right).err(), Some(NetworkError::Dangling(7)));
+    assert_eq!(Network::new(vec![one], DrivingSide::Right).err(), Some(NetworkError::Dangling(7.into())));
 }

@@ -1,5 +1,6 @@
 //! Traffic lights and their programs.
 
+use crate::id::Id;
 use serde::{Deserialize, Serialize};
 
 /// A light's place in [`super::Junctions::lights`].
@@ -18,7 +19,7 @@ impl LightIndex {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     /// The smallest id of its regulatory elements: its name.
-    pub id: i64,
+    pub id: Id,
     /// Its program; of an actuated light, with the maximum greens.
     pub program: Program,
     /// The plan from which it has its program, if it has one.

@@ -1,5 +1,6 @@
 //! The rules for traffic on the lanelets of a network.
 
+use crate::id::Id;
 use std::collections::BTreeMap;
 
 use super::light::Program;
@@ -14,14 +15,14 @@ pub struct Regulations {
     /// Priorities.
     pub priorities: Vec<Priority>,
     /// Programs of lights, by the smallest id of the rules of each.
-    pub programs: BTreeMap<i64, Program>,
+    pub programs: BTreeMap<Id, Program>,
 }
 
 /// A light or sign at which the drivers on some lanelets stop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StopRule {
     /// Its id in the map.
-    pub id: i64,
+    pub id: Id,
     /// What it is.
     pub kind: StopKind,
     /// The lanelets whose drivers obey it.

@@ -14,7 +14,7 @@ use crate::network::Network;
 impl Junctions {
     pub(super) fn place_stops(&mut self, network: &Network, regulations: &Regulations) {
         for (rules, number) in sharing(&regulations.stops).into_iter().zip(0..) {
-            let id = rules.iter().map(|it| it.id).min().unwrap_or_default();
+            let Some(id) = rules.iter().map(|it| it.id).min() else { continue };
             let program = regulations.programs.get(&id);
             self.programmed.extend(program.map(|_| LightIndex(number)));
             let program = program.cloned().unwrap_or(Program::ALWAYS_GREEN);

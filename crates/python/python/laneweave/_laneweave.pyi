@@ -55,15 +55,15 @@ class Simulation:
         """The scenario, with the keys of a scenario file."""
 
     @property
-    def lanelets(self) -> list[int]:
+    def lanelets(self) -> list[str]:
         """The ids of all lanelets."""
 
     @property
-    def origins(self) -> list[tuple[int, float]]:
+    def origins(self) -> list[tuple[str, float]]:
         """Where trips start, by the smallest lanelet id, with the demand there [veh/h]."""
 
     @property
-    def destinations(self) -> list[int]:
+    def destinations(self) -> list[str]:
         """Where trips can end, by the smallest lanelet id."""
 
     @property
@@ -91,18 +91,19 @@ class Simulation:
         """A vehicle; None if it is not on the road."""
 
     def columns(self, poses: bool = False) -> dict[str, npt.NDArray[Any]]:
-        """All vehicles as arrays of the shape (vehicles,): vehicle, lanelet, position_m [m], speed_mps [m/s],
-        acceleration_mps2 [m/s²]; with `poses` also x_m, y_m, z_m [m] and heading_rad [rad] of the centres."""
+        """All vehicles as arrays of the shape (vehicles,): vehicle, lanelet_index (its place in `lanelets`),
+        position_m [m], speed_mps [m/s], acceleration_mps2 [m/s²]; with `poses` also x_m, y_m, z_m [m] and heading_rad
+        [rad] of the centres."""
 
     def insert(
         self,
-        lanelet: int,
+        lanelet: str | int,
         position_m: float,
         speed_mps: float,
         *,
         class_: str = "car",
         style: str | None = None,
-        destination: int | None = None,
+        destination: str | int | None = None,
     ) -> int:
         """Puts a vehicle on the road, at once, and returns its id. Its own driver drives it, with the first style of
         the scenario if none is given.
@@ -140,10 +141,10 @@ class Simulation:
     def set_style(self, id: int, style: str) -> None:
         """Gives the driver of a vehicle another style of the scenario."""
 
-    def set_destination(self, id: int, destination: int | None) -> None:
+    def set_destination(self, id: int, destination: str | int | None) -> None:
         """Gives the driver of a vehicle another destination; None: it follows the road."""
 
-    def set_demand(self, origin: int, vehicles_per_hour: float) -> None:
+    def set_demand(self, origin: str | int, vehicles_per_hour: float) -> None:
         """Sets the demand at an entrance from now on [veh/h]."""
 
     def set_share(self, style: str, weight: float) -> None:
@@ -152,7 +153,7 @@ class Simulation:
     def set_parameter(self, style: str, parameter: str, value: float) -> None:
         """Changes a number of a style for all of its drivers, by its key in a style file."""
 
-    def close_lanelet(self, lanelet: int, is_closed: bool = True) -> None:
+    def close_lanelet(self, lanelet: str | int, is_closed: bool = True) -> None:
         """Closes a lanelet to all vehicles, or opens it again."""
 
     def explain(self, id: int) -> str | None:
@@ -273,7 +274,7 @@ class Fleet:
         """Lets one of the simulations begin anew with this seed."""
 
     @property
-    def lanelets(self) -> list[int]:
+    def lanelets(self) -> list[str]:
         """The ids of all lanelets: the column `lanelet_index` has places in this list."""
 
     @property
@@ -324,20 +325,20 @@ class Map:
         """How it was read."""
 
     @property
-    def lanelets(self) -> list[int]:
+    def lanelets(self) -> list[str]:
         """The ids of all lanelets for vehicles."""
 
-    def lines(self, lanelet: int) -> dict[str, npt.NDArray[np.float64]]:
+    def lines(self, lanelet: str | int) -> dict[str, npt.NDArray[np.float64]]:
         """The borders and the centre line of a lanelet, "left", "right" and "centre": arrays of the shape (points, 3) with
         x, y and z [m]."""
 
-    def graph(self) -> dict[int, dict[str, Any]]:
+    def graph(self) -> dict[str, dict[str, Any]]:
         """The routing graph by the ids of the lanelets: what follows, what lies beside, what crosses, length and limit."""
 
     def check(self) -> dict[str, Any]:
         """What the map contains, and the problems in it, as `laneweave check --json` says it."""
 
-    def routes(self, from_lanelet: int, to_lanelet: int, *, most: int = ..., longest: float = ...) -> list[dict[str, Any]]:
+    def routes(self, from_lanelet: str | int, to_lanelet: str | int, *, most: int = ..., longest: float = ...) -> list[dict[str, Any]]:
         """The sensible routes from one lanelet to another, the fastest first.
 
         Args:

@@ -1,7 +1,7 @@
 //! A fork whose lanes overlap at first and lie side by side later, drawn without common borders and with one joint that
 //! the graph does not know.
 
-use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Side};
+use laneweave_network::{DrivingSide, Id, Lanelet, LaneletIndex, Network, Point, Polyline, Side};
 use laneweave_recordings::{LaneChange, Matched, Recording, RoadUser, State, Track, lane_changes};
 
 const STEP: f64 = 0.2;
@@ -54,8 +54,8 @@ fn rise(x: f64, from: f64, to: f64) -> f64 {
 fn seen(recording: &Recording) -> (Vec<i64>, Vec<LaneChange>) {
     let network = fork();
     let matched = Matched::new(&network, recording);
-    let mut lanelets: Vec<i64> =
-        matched.places[0].iter().flatten().map(|it| network.lanelets[it.lanelet.at()].id).collect();
+    let ids = matched.places[0].iter().flatten().map(|it| network.lanelets[it.lanelet.at()].id);
+    let mut lanelets: Vec<i64> = ids.filter_map(Id::number).collect();
     lanelets.dedup();
     (lanelets, lane_changes(&matched))
 }

@@ -118,7 +118,7 @@ fn without_noise_the_crossing_is_exact() {
     assert!((change.seen_after - (29.96 - 13.01)).abs() < 0.01);
     let names = |it: laneweave_network::LaneletIndex| network.lanelets[it.at()].id;
     // The road's fourth row of lanelets, the slow one first.
-    assert_eq!((names(change.from), names(change.to)), (7, 8));
+    assert_eq!((names(change.from), names(change.to)), (7.into(), 8.into()));
 }
 
 #[test]

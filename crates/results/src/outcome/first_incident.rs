@@ -1,6 +1,6 @@
 //! The first collision or overlap of a run.
 
-use laneweave_network::Network;
+use laneweave_network::{Id, Network};
 use laneweave_sim::{Incident, VehicleId};
 use laneweave_study::seconds;
 use serde::Serialize;
@@ -13,7 +13,7 @@ pub struct FirstIncident {
     /// `collision` or `overlap`.
     pub kind: &'static str,
     /// The lanelet of the first of the two vehicles.
-    pub lanelet: i64,
+    pub lanelet: Id,
     /// Both vehicles, the smaller id first.
     pub vehicles: [VehicleId; 2],
 }

@@ -1,6 +1,6 @@
 //! The queues at the entrances, and what blocks them: a part of the summary.
 
-use laneweave_network::Position;
+use laneweave_network::{Id, Position};
 use laneweave_sim::{EntryQueue, Held, World, entry_queues};
 use serde::{Deserialize, Serialize};
 
@@ -18,9 +18,9 @@ pub struct Queues {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Queue {
     /// The entrance's name: the smallest id of its lanelets.
-    pub entrance: i64,
+    pub entrance: Id,
     /// The lanelet on which its vehicles enter.
-    pub lanelet: i64,
+    pub lanelet: Id,
     /// Vehicles that wait at the end.
     pub waiting: usize,
     /// Maximum of waiting vehicles.

@@ -22,8 +22,8 @@ static COLUMNS: [Column; 17] = [
     Column::text("other_class"),
     Column::text("style"),
     Column::text("other_style"),
-    Column::integer("lanelet"),
-    Column::integer("other_lanelet"),
+    Column::text("lanelet"),
+    Column::text("other_lanelet"),
     Column::real("position_m"),
     Column::real("other_position_m"),
     Column::real("x_m"),
@@ -114,8 +114,8 @@ impl Writer for IncidentTable {
 fn row<'a>(names: &'a Names, incident: &Incident) -> [Cell<'a>; COLUMNS.len()] {
     let &Incident { kind, time, vehicles, driver_parameters, classes, places, at, speeds, depth } = incident;
     let [[lanelet, position], [other_lanelet, other_position]] = places.map(|it| {
-        let (_, lanelet, along) = names.lanelet(it);
-        [lanelet.id.into(), along.into()]
+        let (lanelet, along) = names.lanelet(it);
+        [names.id(lanelet).into(), along.into()]
     });
     let [class, other_class] = classes.map(|it| it.body().name.into());
     let [style, other_style] = driver_parameters.map(|it| names.style(it).into());

@@ -21,8 +21,8 @@ const BEFORE: [Column; 14] = [
     Column::integer("vehicle"),
     Column::text("style"),
     Column::text("class"),
-    Column::integer("from_lanelet"),
-    Column::integer("to_lanelet"),
+    Column::text("from_lanelet"),
+    Column::text("to_lanelet"),
     Column::real("x_m"),
     Column::real("y_m"),
     Column::text("side"),
@@ -123,7 +123,6 @@ impl Writer for LaneChangeTable {
 }
 
 fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
-    let lanelet = |at| names.lanelet(at).1.id;
     let Point { x, y, .. } = place(names, change);
     let mut cells: Vec<Cell> = vec![
         seconds(change.time).into(),
@@ -132,8 +131,8 @@ fn row<'a>(names: &'a Names, change: &LaneChange) -> Vec<Cell<'a>> {
         change.vehicle.into(),
         names.style(change.parameters).into(),
         change.class.body().name.into(),
-        lanelet(change.from).into(),
-        lanelet(change.to).into(),
+        names.id_at(change.from).into(),
+        names.id_at(change.to).into(),
         x.into(),
         y.into(),
         change.side.name().into(),

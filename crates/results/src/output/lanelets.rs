@@ -92,7 +92,7 @@ impl Output for Lanelets {
 const FLOWS: [Column; 6] = [
     Column::real("from_s").repeating(),
     Column::real("to_s").repeating(),
-    Column::integer("lanelet"),
+    Column::text("lanelet"),
     Column::real("flow_veh_h"),
     Column::real("density_veh_km"),
     Column::real("speed_mps"),
@@ -117,7 +117,7 @@ impl Writer for FlowTable {
         let Batch::Flows(traffic) = batch else { return Ok(()) };
         let [from, to] = traffic.during;
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
-            let id = names.network.lanelets[place].id;
+            let id = names.id(LaneletIndex(place as u32));
             self.table.row(&[
                 seconds(from).into(),
                 seconds(to).into(),
@@ -137,7 +137,7 @@ impl Writer for FlowTable {
 }
 
 const LANELETS: [Column; 14] = [
-    Column::integer("lanelet"),
+    Column::text("lanelet"),
     Column::text("sumo_lane"),
     Column::real("length_m"),
     Column::integer("vehicles"),
@@ -171,13 +171,13 @@ impl Writer for LaneletTable {
     fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
         let Batch::Lanelets(traffic) = batch else { return Ok(()) };
         for (place, [density, flow], speed) in traffic.measures(&names.network) {
-            let (lanelet, counts) = (&names.network.lanelets[place], &traffic.counts[place]);
+            let (lanelet, counts) = (LaneletIndex(place as u32), &traffic.counts[place]);
             // A vehicle that changes to the left comes from the right.
             let ([to_left, to_right], [from_right, from_left]) = (counts.away, counts.onto);
             self.table.row(&[
-                lanelet.id.into(),
-                names.lanes.name(LaneletIndex(place as u32)).into(),
-                lanelet.length().into(),
+                names.id(lanelet).into(),
+                names.lanes.name(lanelet).into(),
+                names.network.lanelets[place].length().into(),
                 counts.stay.passed.into(),
                 flow.into(),
                 density.into(),

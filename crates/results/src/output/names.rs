@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use laneweave_network::{Lanelet, LaneletIndex, Network, Position};
-use laneweave_sim::{Place, World};
+use laneweave_network::{LaneletIndex, Network, Position};
+use laneweave_sim::{Demand, Trips, VehicleId, World};
 
 use super::sumo::Lanes;
 
@@ -13,9 +13,13 @@ pub(super) struct Names {
     pub(super) network: Arc<Network>,
     /// For each set of driver parameters the name of its style, and its speed factor.
     driver_parameters: Vec<(String, f64)>,
+    /// The ids of the lanelets.
+    lanelets: Vec<String>,
+    /// The names of the first vehicles, if all of them have one.
+    vehicles: Vec<String>,
     /// The ids of the origins and of the destinations, in the order of the demand.
-    origins: Vec<i64>,
-    destinations: Vec<i64>,
+    origins: Vec<String>,
+    destinations: Vec<String>,
     /// The lanelets as lanes of SUMO.
     pub(super) lanes: Lanes,
     /// Length of a step [s].
@@ -30,8 +34,10 @@ impl Names {
         let demand = world.demand();
         Names {
             driver_parameters: driver_parameters.collect(),
-            origins: demand.origins.iter().map(|it| it.place.id()).collect(),
-            destinations: demand.destinations.iter().map(Place::id).collect(),
+            vehicles: vehicles(demand),
+            lanelets: network.lanelets.iter().map(|it| it.id.to_string()).collect(),
+            origins: demand.origins.iter().map(|it| it.place.id().to_string()).collect(),
+            destinations: demand.destinations.iter().map(|it| it.id().to_string()).collect(),
             lanes: Lanes::of(&network),
             step_s: world.clock().dt,
             network,
@@ -39,9 +45,28 @@ impl Names {
     }
 
     /// The lanelet at a place, and the station on it [m].
-    pub(super) fn lanelet(&self, at: Position) -> (LaneletIndex, &Lanelet, f64) {
-        let (index, along) = self.network.chain(at.chain).lanelet(at.x);
-        (index, &self.network.lanelets[index.at()], along)
+    pub(super) fn lanelet(&self, at: Position) -> (LaneletIndex, f64) {
+        self.network.chain(at.chain).lanelet(at.x)
+    }
+
+    /// The id of a lanelet.
+    pub(super) fn id(&self, lanelet: LaneletIndex) -> &str {
+        &self.lanelets[lanelet.at()]
+    }
+
+    /// The ids of all lanelets.
+    pub(super) fn ids(&self) -> impl Iterator<Item = &str> {
+        self.lanelets.iter().map(String::as_str)
+    }
+
+    /// The name of a vehicle, if it has one.
+    pub(super) fn vehicle(&self, id: VehicleId) -> Option<&str> {
+        self.vehicles.get(id as usize).map(String::as_str)
+    }
+
+    /// The id of the lanelet at a place.
+    pub(super) fn id_at(&self, at: Position) -> &str {
+        self.id(self.lanelet(at).0)
     }
 
     /// Whether there is such a place.
@@ -70,12 +95,19 @@ impl Names {
     }
 
     /// The id of an origin of the demand.
-    pub(super) fn origin(&self, number: Option<usize>) -> Option<i64> {
-        number.and_then(|it| self.origins.get(it)).copied()
+    pub(super) fn origin(&self, number: Option<usize>) -> Option<&str> {
+        number.and_then(|it| self.origins.get(it)).map(String::as_str)
     }
 
     /// The id of a destination of the demand.
-    pub(super) fn destination(&self, number: Option<usize>) -> Option<i64> {
-        number.and_then(|it| self.destinations.get(it)).copied()
+    pub(super) fn destination(&self, number: Option<usize>) -> Option<&str> {
+        number.and_then(|it| self.destinations.get(it)).map(String::as_str)
     }
+}
+
+/// The names of the vehicles of a demand, all of which departs as it is scheduled: the n-th one has the id n.
+fn vehicles(demand: &Demand) -> Vec<String> {
+    let is_scheduled = demand.origins.iter().all(|it| it.trips == Trips::Scheduled);
+    let named = demand.departures.iter().filter(|_| is_scheduled);
+    named.map(|it| it.name.clone()).collect()
 }

@@ -16,7 +16,7 @@ const COLUMNS: [Column; 16] = [
     Column::integer("vehicle"),
     Column::text("class"),
     Column::text("style"),
-    Column::integer("lanelet"),
+    Column::text("lanelet"),
     Column::real("position_m"),
     Column::real("offset_m").repeating(),
     Column::real("x_m"),
@@ -39,19 +39,19 @@ const _: () = assert!(Phase::Wants as u32 == 1 && Phase::Changes as u32 == 2 && 
 pub(super) struct Trajectories {
     table: TableWriter,
     path: PathBuf,
-    /// Buffers for the columns of numbers and of integers.
+    /// Buffers for the columns of numbers, and for that of integers.
     numbers: [Vec<f64>; 11],
-    integers: [Vec<i64>; 2],
+    vehicle: Vec<i64>,
     /// Buffers for those of texts, by their indices in lists.
-    places: [Vec<u32>; 3],
+    places: [Vec<u32>; 4],
 }
 
 impl Trajectories {
     /// Begins the table in `folder`.
     pub(super) fn create(folder: &Folder) -> Result<Trajectories, Fault> {
         let (table, path) = folder.table("trajectories", &COLUMNS)?;
-        let (numbers, integers, places) = Default::default();
-        Ok(Trajectories { table, path, numbers, integers, places })
+        let (numbers, vehicle, places) = Default::default();
+        Ok(Trajectories { table, path, numbers, vehicle, places })
     }
 }
 
@@ -59,7 +59,7 @@ impl Writer for Trajectories {
     fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
         let Batch::Frame(frame) = batch else { return Ok(()) };
         let (seen, bodies) = (frame.seen(), frame.bodies());
-        let Trajectories { table, numbers, integers, places, .. } = self;
+        let Trajectories { table, numbers, vehicle, places, .. } = self;
         numbers.iter_mut().for_each(|it| empty(it, seen.len()));
         let [time, along, offset, x, y, z, heading, speed, acceleration, length, width] = numbers;
         for (step, here, _) in frame.instants() {
@@ -75,23 +75,22 @@ impl Writer for Trajectories {
         acceleration.extend(seen.iter().map(|it| f64::from(it.motion.acceleration)));
         length.extend(bodies.iter().map(|it| it.size[0]));
         width.extend(bodies.iter().map(|it| it.size[1]));
-        integers.iter_mut().for_each(|it| empty(it, seen.len()));
-        let [vehicle, lanelet] = integers;
+        empty(vehicle, seen.len());
         vehicle.extend(seen.iter().map(|it| i64::from(it.motion.id)));
-        lanelet.extend(bodies.iter().map(|it| names.network.lanelets[it.lanelet.at()].id));
         places.iter_mut().for_each(|it| empty(it, seen.len()));
-        let [class, style, state] = places;
+        let [class, style, lanelet, state] = places;
         class.extend(seen.iter().map(|it| it.class as u32));
         style.extend(seen.iter().map(|it| it.parameters));
+        lanelet.extend(bodies.iter().map(|it| it.lanelet.0));
         state.extend(seen.iter().map(|it| it.phase as u32));
-        let styles: Vec<&str> = names.styles().collect();
+        let (styles, lanelets): (Vec<&str>, Vec<&str>) = (names.styles().collect(), names.ids().collect());
         let classes = Class::ALL.map(|it| it.body().name);
         table.rows(&[
             Cells::F64(time),
             Cells::I64(vehicle),
             Cells::Text(class, &classes),
             Cells::Text(style, &styles),
-            Cells::I64(lanelet),
+            Cells::Text(lanelet, &lanelets),
             Cells::F64(along),
             Cells::F64(offset),
             Cells::F64(x),

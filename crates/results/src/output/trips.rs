@@ -70,14 +70,14 @@ impl Output for Trips {
     }
 }
 
-static COLUMNS: [Column; 20] = [
+static COLUMNS: [Column; 21] = [
     Column::integer("vehicle"),
     Column::text("class"),
     Column::text("style"),
-    Column::integer("origin"),
-    Column::integer("destination"),
-    Column::integer("from_lanelet"),
-    Column::integer("to_lanelet"),
+    Column::text("origin"),
+    Column::text("destination"),
+    Column::text("from_lanelet"),
+    Column::text("to_lanelet"),
     Column::real("arrived_s"),
     Column::real("entered_s"),
     Column::real("completed_s"),
@@ -91,6 +91,7 @@ static COLUMNS: [Column; 20] = [
     Column::integer("lane_changes"),
     Column::integer("route_changes"),
     Column::integer("missed_turns"),
+    Column::text("name"),
 ];
 
 /// Writes a row for each trip.
@@ -125,15 +126,14 @@ impl Writer for TripTable {
 
 fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
     let Trip { record, way, end } = trip;
-    let lanelet = |at| names.lanelet(at).1.id;
     [
         record.vehicle.into(),
         record.class.body().name.into(),
         names.style(record.parameters).into(),
         names.origin(record.origin).into(),
         names.destination(record.destination).into(),
-        lanelet(record.from).into(),
-        end.map(|it| lanelet(it.at)).into(),
+        names.id_at(record.from).into(),
+        end.map(|it| names.id_at(it.at)).into(),
         seconds(record.arrived).into(),
         seconds(record.entered).into(),
         end.map(|it| seconds(it.time)).into(),
@@ -147,5 +147,6 @@ fn row<'a>(trip: &Trip, names: &'a Names) -> [Cell<'a>; COLUMNS.len()] {
         record.lane_changes.into(),
         record.route_changes.into(),
         record.missed_turns.into(),
+        names.vehicle(record.vehicle).into(),
     ]
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{ChainIndex, Gate, Network, Position};
+use laneweave_network::{ChainIndex, Gate, Id, Network, Position};
 use laneweave_sim::{Event, Place, VehicleId, World};
 use laneweave_study::{Mark, Sample};
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ const MOST_SAMPLES: f64 = 600.0;
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Traces {
     /// The lanelet with which the lane begins.
-    pub lanelet: i64,
+    pub lanelet: Id,
     road: Road,
     begin: f64,
     end: f64,
@@ -122,7 +122,7 @@ impl Traces {
 
 /// A lane from an origin on.
 struct Course {
-    lanelet: i64,
+    lanelet: Id,
     road: Road,
 }
 
@@ -132,6 +132,7 @@ impl Course {
         let chain = match place {
             Place::Gate(gate) => slow_lane(network, gate)?,
             Place::Inside(inner) => inner.chain,
+            Place::Across(section) => section.lanes().next()?.chain,
         };
         let lanelet = network.lanelet_at(Position::new(chain, 0.0)).0.id;
         Some(Course { lanelet, road: Road::from(network, chain, LONGEST_ROAD) })

@@ -1,6 +1,6 @@
 //! The loads of lanes and lights.
 
-use laneweave_network::{ChainIndex, Light, Position, Side, Sign};
+use laneweave_network::{ChainIndex, Id, Light, Position, Side, Sign};
 use laneweave_sim::{Change, TAKES_LANE_WITHIN};
 
 use super::{Bottleneck, Load, Roads, curvature, weaving};
@@ -97,7 +97,7 @@ impl Roads<'_> {
     }
 
     /// The flow at a station of a chain [veh/s], and the light there.
-    fn capacity(&self, chain: ChainIndex, station: f64) -> (f64, Option<i64>) {
+    fn capacity(&self, chain: ChainIndex, station: f64) -> (f64, Option<Id>) {
         let network = self.network;
         let limit = network.chain(chain).limit(station);
         let stops = network.junctions.on(chain).stops.iter();

@@ -23,7 +23,7 @@ use std::fmt;
 use std::sync::LazyLock;
 
 use laneweave_models::Style;
-use laneweave_network::{ChainIndex, Network, Position};
+use laneweave_network::{ChainIndex, Id, Network, Position};
 use laneweave_sim::{Assignment, Demand, InnerPlace, Navigator, Place, Thinning};
 
 pub(crate) use growth::Growth;
@@ -47,18 +47,18 @@ pub struct Capacity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bottleneck {
     /// The lanes side by side at this lanelet.
-    Lanes(i64),
+    Lanes(Id),
     /// The light that drivers on this lanelet obey.
     Light {
         /// The light.
-        light: i64,
+        light: Id,
         /// A lanelet before it.
-        lanelet: i64,
+        lanelet: Id,
     },
     /// The junction on the path of this lanelet.
-    Junction(i64),
+    Junction(Id),
     /// The place inside the map along this lanelet.
-    TripEnd(i64),
+    TripEnd(Id),
     /// The town core: all roads that form loops.
     Town,
 }
@@ -115,7 +115,7 @@ struct Roads<'a> {
 
 impl Roads<'_> {
     /// The lanelet's id at a station of a chain [m].
-    fn lanelet(&self, chain: ChainIndex, station: f64) -> i64 {
+    fn lanelet(&self, chain: ChainIndex, station: f64) -> Id {
         self.network.lanelet_at(Position::new(chain, station)).0.id
     }
 
@@ -172,7 +172,7 @@ impl Capacity {
 pub(crate) fn inner_places(demand: &Demand) -> Vec<InnerPlace> {
     let inner_place = |it: &Place| match it {
         Place::Inside(inner) => Some(*inner),
-        Place::Gate(_) => None,
+        Place::Gate(_) | Place::Across(_) => None,
     };
     demand.origins.iter().filter_map(|it| inner_place(&it.place)).collect()
 }

@@ -250,6 +250,7 @@ fn by_pieces(
 fn usual_demand(network: &Network, origins: &[Place]) -> f64 {
     let of_place = |place: &Place| match place {
         Place::Gate(_) => USUAL_DEMAND * place.lanes(network) as f64,
+        Place::Across(_) => 0.0,
         Place::Inside(inner) => {
             let (lanelet, _) = network.lanelet_at(Position::new(inner.chain, inner.station));
             USUAL_STARTS * lanelet.length() / METRES_PER_KM
@@ -265,7 +266,7 @@ pub(super) fn named<'a>(
     what: &str,
     at: &str,
 ) -> Result<usize, Fault> {
-    places.clone().position(|it| it.id().to_string() == id).ok_or_else(|| {
+    places.clone().position(|it| it.id() == id).ok_or_else(|| {
         let known: Vec<String> = places.map(|it| it.id().to_string()).collect();
         let remedy = did_you_mean(id, known.iter().map(String::as_str));
         Fault::new(at, format!("the map has no {what} {id:?}"), remedy)

@@ -1,5 +1,7 @@
 //! External vehicles in a scenario.
 
+use super::WrittenId;
+use laneweave_network::Id;
 use laneweave_sim::{Class, Control, Lateral, Longitudinal, NewVehicle};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,7 +17,8 @@ pub struct External {
     #[serde(default)]
     pub time_s: f64,
     /// The id of the lanelet on which its front bumper is.
-    pub lanelet: i64,
+    #[schemars(with = "WrittenId")]
+    pub lanelet: Id,
     /// Position of its front bumper along the lanelet [m].
     pub position_m: f64,
     /// Its speed [m/s].
@@ -27,7 +30,8 @@ pub struct External {
     /// The style of its driver: the name of one of the styles of the scenario.
     pub style: String,
     /// The smallest lanelet id of its destination; default: it follows the road.
-    pub destination: Option<i64>,
+    #[schemars(with = "Option<WrittenId>")]
+    pub destination: Option<Id>,
     /// The speed at which it drives, whatever is ahead [m/s]; default: as its own driver does.
     pub held_speed_mps: Option<f64>,
     /// Whether it keeps its lane; otherwise its own driver changes lanes.

@@ -1,10 +1,11 @@
 //! Lines of buses in a scenario.
 
-use laneweave_network::{Network, Position};
+use laneweave_network::{Id, Network, Position};
 use laneweave_sim::{Class, Demand, Departures, InnerPlace, LineStop, Place, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::WrittenId;
 use super::demand::named;
 use super::{LONGEST, Origin, Scenario};
 use crate::fault::Fault;
@@ -40,7 +41,8 @@ pub struct Line {
 #[serde(deny_unknown_fields)]
 pub struct Stop {
     /// The id of its lanelet.
-    pub lanelet: i64,
+    #[schemars(with = "WrittenId")]
+    pub lanelet: Id,
     /// Where the front bumper stands along the lanelet [m].
     pub position_m: f64,
     /// Time for which a vehicle rests there [s].
@@ -155,10 +157,10 @@ fn check_times(line: &Line, place: impl Fn(&str) -> String) -> Result<(), Fault>
 }
 
 /// The key of a stop that is wrong, what is wrong with it, and the remedy.
-type Wrong = (&'static str, String, String);
+pub(crate) type Wrong = (&'static str, String, String);
 
 /// The place at which trips to a stop would end.
-fn inner_place(stop: &Stop, class: Class, network: &Network) -> Result<InnerPlace, Wrong> {
+pub(crate) fn inner_place(stop: &Stop, class: Class, network: &Network) -> Result<InnerPlace, Wrong> {
     let Stop { lanelet: id, position_m, rest_s } = *stop;
     if !(0.0..=LONGEST_REST).contains(&rest_s) {
         return Err(("rest_s", format!("a rest of {rest_s} s"), format!("choose 0 to {LONGEST_REST} s")));

@@ -7,6 +7,7 @@ use laneweave_network::DrivingSide;
 
 use super::{MapOptions, Origin, Scenario};
 use crate::fault::{Fault, FaultKind};
+use crate::sumo::with_programs;
 
 /// Reads the map of a scenario.
 ///
@@ -18,7 +19,7 @@ pub fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
         Some(text) => lanelet2::read(text.as_bytes(), &options),
         None => load(&scenario.map, &options),
     };
-    read.map_err(|error| {
+    let map = read.map_err(|error| {
         let fault = map_fault(&error, &scenario.map, origin);
         match error {
             // The file may be a scenario or a map.
@@ -27,7 +28,8 @@ pub fn read_map(scenario: &Scenario, origin: &Origin) -> Result<Map, Fault> {
             }
             _ => fault,
         }
-    })
+    })?;
+    with_programs(map, &scenario.sumo)
 }
 
 /// Reads the map at `path`, with options of the command.

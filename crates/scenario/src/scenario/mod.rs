@@ -14,11 +14,13 @@ mod origin;
 mod prepare;
 mod replay;
 mod saved;
+mod scheduled;
 mod settling;
 mod signals;
 mod template;
 mod turns;
 mod written;
+mod written_id;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZero;
@@ -29,11 +31,14 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::{Deserialize, Serialize};
 
 use crate::style::{DEFAULT_MIXTURE, Model};
+use crate::sumo::Sumo;
+use written_id::WrittenId;
 
 pub use basis::Basis;
 pub use conditions::Conditions;
 pub use external::External;
 pub use headways::Headways;
+pub(crate) use line::inner_place;
 pub use line::{Line, Stop};
 pub use map::{open_map, read_map};
 pub use mixture::mixture;
@@ -81,6 +86,9 @@ pub struct Scenario {
     /// A recording whose vehicles drive as they were recorded, or react.
     #[serde(default)]
     pub replay: Replay,
+    /// Vehicles of SUMO, on a net of SUMO: all traffic of the demand.
+    #[serde(default)]
+    pub sumo: Sumo,
     /// Guidance: the information on travel times that drivers get.
     #[serde(default)]
     pub guidance: Guidance,
@@ -88,7 +96,7 @@ pub struct Scenario {
     #[serde(default)]
     pub run: Run,
     /// The styles of the drivers with their weights: names of built-in styles, or paths of style files (FILE.toml)
-    /// relative to the scenario file.
+    /// relative to the scenario file. None of them: the drivers of SUMO's vehicles have those of their types.
     #[serde(default = "default_styles")]
     pub styles: BTreeMap<String, f64>,
     /// One lane-change model for all drivers, in place of those of their styles.
@@ -368,6 +376,7 @@ impl Scenario {
             external: Vec::new(),
             obstacle: Vec::new(),
             replay: Replay::default(),
+            sumo: Sumo::default(),
             guidance: Guidance::default(),
             run: Run::default(),
             styles: default_styles(),

@@ -1,5 +1,7 @@
 //! Obstacles in a scenario.
 
+use super::WrittenId;
+use laneweave_network::Id;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +10,8 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// The id of the lanelet on which its far end is.
-    pub lanelet: i64,
+    #[schemars(with = "WrittenId")]
+    pub lanelet: Id,
     /// Position of its far end along the lanelet [m].
     pub position_m: f64,
     /// Its length along the lane [m].

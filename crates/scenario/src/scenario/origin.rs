@@ -9,10 +9,16 @@ use super::{Replay, Scenario};
 use crate::fault::{Fault, FaultKind};
 use crate::source::Source;
 use crate::style::find;
+use crate::sumo;
 
 /// The demo scenario and its map, which are built in.
 const DEMO: &str = include_str!("../../assets/demo.toml");
 const DEMO_MAP: &str = include_str!("../../assets/town.osm");
+
+/// Whether a file is a configuration of SUMO, by its name.
+fn is_configuration(path: &Path) -> bool {
+    path.extension().is_some_and(|it| it.eq_ignore_ascii_case("sumocfg"))
+}
 
 /// The source of the values of a scenario.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +40,7 @@ impl Origin {
     pub fn open(path: &Path) -> Result<(Scenario, Origin), Fault> {
         match FileKind::by_name(path) {
             FileKind::Toml => Origin::from_source(Source::read(path)?),
+            _ if is_configuration(path) => Ok((sumo::open(path)?, Origin::default())),
             _ => Ok((Scenario::of_map(path.to_owned()), Origin::default())),
         }
     }
@@ -58,6 +65,7 @@ impl Origin {
         scenario.commands = scenario.commands.map(|it| source.folder().join(it));
         let Replay { recording, columns, .. } = &mut scenario.replay;
         recording.iter_mut().chain(columns).for_each(|it| *it = source.folder().join(&*it));
+        scenario.sumo.files_mut().for_each(|it| *it = source.folder().join(&*it));
         Ok((scenario, Origin { source: Some(source), ..Origin::default() }))
     }
 

@@ -13,7 +13,7 @@ use super::conditions::Conditions;
 use super::demand::{Amount, check_ways, demand};
 use super::made_signals::MadeLights;
 use super::map::read_map;
-use super::mixture::mixture;
+use super::scheduled::{Scheduled, classes};
 use super::settling::{Settled, Settling, estimate, origins};
 use super::signals::plans;
 use super::turns::check_arrivals;
@@ -132,29 +132,30 @@ fn prepare_with(
     map: impl FnOnce() -> Result<Map, Fault>,
 ) -> Result<Prepared, Fault> {
     check_numbers(scenario, origin)?;
-    let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
-    let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
+    let [record_steps, flows_steps, checkpoint_steps] = intervals(scenario, origin)?;
     let threads = threads(scenario, origin, record_steps.is_some())?;
-    let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
-    check_samples(scenario, origin, record_steps)?;
-    let checkpoint_steps = in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?;
-    let mixture = mixture(scenario, origin)?;
+    let scheduled = Scheduled::of(scenario, origin)?;
+    let mut mixture = scheduled.mixture(origin)?;
     let Population { driver_parameters, shares } =
         Population::draw(&mixture, scenario.run.seed_of_drivers())?;
     let driver_parameters = driving(scenario, driver_parameters);
     let map = map()?;
     let (network, places) = if scenario.map_options.joins_ends { joined(&map) } else { driven(&map) };
+    let (network, mut problems) = (playing.permit(network), map.problems.clone());
     // A user cannot correct the built-in map.
-    let is_own = origin.map.is_none();
-    let network = playing.permit(network);
-    let mut remarks = if is_own { remarks(&map, &network, &places, &driver_parameters) } else { Vec::new() };
-    remarks.extend(unused_lanes(&network, scenario.demand.classes()));
+    let remarks = || remarks(&map, &network, &places, &driver_parameters);
+    let mut remarks = origin.map.map_or_else(remarks, |_| Vec::new());
+    let schedule = scheduled.schedule(&network, &mut mixture, &mut problems)?;
+    remarks.extend(unused_lanes(&network, classes(scenario, schedule.as_ref())));
     let plans = plans(scenario, origin, &network)?;
     let made = MadeLights::of(scenario, &plans, &network);
     let network = Arc::new(network.with_signals(&plans));
-    check_places(scenario, &places)?;
+    check_places(scenario, &places, schedule.is_some())?;
     let build = |network: &Arc<Network>, amount: (Option<&Amount>, &[usize])| {
-        let demand = demand(scenario, origin, network, places.clone(), shares.clone(), amount)?;
+        let demand = match &schedule {
+            Some(schedule) => schedule.demand(scenario.demand.fleet(), shares.clone()),
+            None => demand(scenario, origin, network, places.clone(), shares.clone(), amount)?,
+        };
         let setup = Setup { step: scenario.run.step_s, seed: scenario.run.seed, threads };
         World::new(Arc::clone(network), driver_parameters.clone(), demand, setup)
             .map_err(|error| unbuilt(scenario, origin, &error))
@@ -168,12 +169,12 @@ fn prepare_with(
     let steps = |duration: f64| (duration / scenario.run.step_s).round() as u32;
     let warmup_steps = steps(scenario.run.warmup_s);
     let world = equipped(world, warmup_steps, scenario, origin)?;
-    let capacity = match capacity {
-        Some(known) => Estimate::new(Box::new(move || known)),
-        None => estimate(&world, measured, queues, made),
-    };
-    check_ways(scenario, origin, &world)?;
-    check_arrivals(scenario, origin, &world)?;
+    let estimated = || estimate(&world, measured, queues, made);
+    let capacity = capacity.map_or_else(estimated, |known| Estimate::new(Box::new(move || known)));
+    if schedule.is_none() {
+        check_ways(scenario, origin, &world)?;
+        check_arrivals(scenario, origin, &world)?;
+    }
     let player = playing.player(scenario, origin, map.origin, &world)?;
     let script = Script::of(scenario, origin, &map.contents.obstacles, player, &world)?;
     let conditions = Conditions {
@@ -188,7 +189,7 @@ fn prepare_with(
         capacity,
         styles: mixture.iter().map(|(it, weight)| (it.typical().name.clone(), *weight)).collect(),
         mixture,
-        problems: map.problems,
+        problems,
         remarks,
         origin: map.origin,
     };
@@ -218,9 +219,18 @@ impl Prepared {
     }
 }
 
-/// Checks that trips can start somewhere.
-fn check_places(scenario: &Scenario, places: &Places) -> Result<(), Fault> {
-    if places.origins.is_empty() {
+/// The intervals of samples, of flows and of checkpoints, in steps.
+fn intervals(scenario: &Scenario, origin: &Origin) -> Result<[Option<u32>; 3], Fault> {
+    let in_steps = |key, what, interval| whole_steps(scenario.run.step_s, origin, key, what, interval);
+    let record_steps = in_steps("record_s", RECORDING, scenario.output.record_s)?;
+    let flows_steps = in_steps("flows_s", FLOWS, scenario.output.flows_s)?;
+    check_samples(scenario, origin, record_steps)?;
+    Ok([record_steps, flows_steps, in_steps("checkpoint_s", CHECKPOINTS, scenario.output.checkpoint_s)?])
+}
+
+/// Checks that trips can start somewhere: at these places, or where others are.
+fn check_places(scenario: &Scenario, places: &Places, has_others: bool) -> Result<(), Fault> {
+    if places.origins.is_empty() && !has_others {
         let what = "no vehicle can drive on the map: no lanelet of 10 m or more begins at its edge, and from no lanelet of 20 m or \
                     more outside conflict areas can another be reached";
         return Err(Fault::new(scenario.map.display(), what, "choose a map with longer lanelets"));

@@ -1,9 +1,10 @@
 //! Signal programs in a scenario.
 
-use laneweave_network::{Extension, LightConflict, LightIndex, Network, Position, SignalPlan, Turn};
+use laneweave_network::{Extension, Id, LightConflict, LightIndex, Network, Position, SignalPlan, Turn};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::WrittenId;
 use super::{Origin, Scenario};
 use crate::fault::Fault;
 
@@ -36,7 +37,8 @@ pub struct Signal {
 #[serde(deny_unknown_fields)]
 pub struct SignalPhase {
     /// Ids of the traffic lights that are green; a light that is also green in the next phase stays green in between.
-    pub green: Vec<i64>,
+    #[schemars(with = "Vec<WrittenId>")]
+    pub green: Vec<Id>,
     /// Green time [s], for a phase of fixed length.
     pub green_s: Option<f64>,
     /// Maximum green [s], if traffic extends the phase: counted from the first call for another phase.
@@ -194,13 +196,15 @@ fn green(phase: &SignalPhase, place: impl Fn(&str) -> String) -> Result<(f64, Op
 }
 
 /// The light with this id.
-fn light(network: &Network, id: i64, place: String) -> Result<LightIndex, Fault> {
+fn light(network: &Network, id: Id, place: String) -> Result<LightIndex, Fault> {
     let lights = &network.junctions.lights;
     let index = lights.iter().position(|it| it.id == id);
     index.map(|it| LightIndex(it as u32)).ok_or_else(|| {
-        let mut known: Vec<i64> = lights.iter().map(|it| it.id).collect();
-        known.sort_by_key(|it| it.abs_diff(id));
-        let nearest: Vec<String> = known.iter().take(LISTED).map(i64::to_string).collect();
+        let mut known: Vec<Id> = lights.iter().map(|it| it.id).collect();
+        known.sort_unstable();
+        let first = known.partition_point(|it| *it < id).saturating_sub(LISTED / 2);
+        let first = first.min(known.len().saturating_sub(LISTED));
+        let nearest: Vec<String> = known.iter().skip(first).take(LISTED).map(Id::to_string).collect();
         let remedy = match known.len() {
             0 => "leave it out".into(),
             1..=LISTED => format!("its traffic lights are {}", nearest.join(", ")),
@@ -250,7 +254,7 @@ fn check_conflicts(
     Ok(())
 }
 
-fn name(network: &Network, light: LightIndex) -> i64 {
+fn name(network: &Network, light: LightIndex) -> Id {
     network.junctions.lights[light.at()].id
 }
 

@@ -5,11 +5,12 @@
 //! there. So the counts are reproduced where one route leads from an entrance to an exit; of several routes, all
 //! drivers take the best.
 
-use laneweave_network::{Branch, ChainIndex, Network, Sections, Side};
+use laneweave_network::{Branch, ChainIndex, Id, Network, Sections, Side};
 use laneweave_sim::{Demand, Place, Trips, World};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::WrittenId;
 use super::{Origin, Scenario};
 use crate::fault::Fault;
 
@@ -18,7 +19,8 @@ use crate::fault::Fault;
 #[serde(deny_unknown_fields)]
 pub struct Turns {
     /// The id of a lanelet of the road.
-    pub from: i64,
+    #[schemars(with = "WrittenId")]
+    pub from: Id,
     /// Share, or count, of drivers who turn left (or make a U-turn).
     #[serde(default)]
     pub left: f64,
@@ -172,7 +174,7 @@ fn ways_on(
         branches.iter().map(|it| (it.section, it.lanes as f64 / all as f64)).collect()
     };
     let mut ways_on: Vec<WaysOn> = sections.all().iter().map(|it| by_lanes(&it.following)).collect();
-    let mut named: Vec<Option<i64>> = vec![None; ways_on.len()];
+    let mut named: Vec<Option<Id>> = vec![None; ways_on.len()];
     for (turns, number) in scenario.turns.iter().zip(0..) {
         let place = |key: &str| origin.place(&["turns", &number.to_string(), key]);
         let section = fork_after(turns.from, network, sections)
@@ -187,7 +189,7 @@ fn ways_on(
 }
 
 /// The section to which the lanelet with this id leads, and which has several continuations.
-fn fork_after(id: i64, network: &Network, sections: &Sections) -> Result<usize, (String, &'static str)> {
+fn fork_after(id: Id, network: &Network, sections: &Sections) -> Result<usize, (String, &'static str)> {
     let lanelets = sections.all().iter().flat_map(|it| &it.lanelets);
     let mut same = lanelets.filter(|it| network.lanelets[it.at()].id == id);
     let first = same.next().ok_or((

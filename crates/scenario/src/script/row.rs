@@ -15,7 +15,7 @@ use crate::source::in_words;
 pub static COMMAND_COLUMNS: [Column; 5] = [
     Column::real("time_s"),
     Column::text("target"),
-    Column::integer("id"),
+    Column::text("id"),
     Column::text("act"),
     Column::text("values"),
 ];
@@ -27,7 +27,7 @@ const TOLERANCE: f64 = 1e-3;
 pub struct Written {
     time_s: f64,
     target: &'static str,
-    id: Option<i64>,
+    id: Option<String>,
     act: String,
     values: String,
 }
@@ -44,18 +44,24 @@ impl Written {
     /// Its cells under [`COMMAND_COLUMNS`].
     pub fn cells(&self) -> [Cell<'_>; COMMAND_COLUMNS.len()] {
         let Written { time_s, target, id, act, values } = self;
-        [(*time_s).into(), (*target).into(), (*id).into(), act.as_str().into(), values.as_str().into()]
+        [
+            (*time_s).into(),
+            (*target).into(),
+            id.as_deref().into(),
+            act.as_str().into(),
+            values.as_str().into(),
+        ]
     }
 }
 
 /// What the columns `target` and `id` say of what a command concerns. A style has no id: its name is in the values.
-fn kind_and_id(target: &Target) -> (&'static str, Option<i64>) {
+fn kind_and_id(target: &Target) -> (&'static str, Option<String>) {
     match target {
-        Target::Lanelet(id) => ("lanelet", Some(*id)),
-        Target::Origin(id) => ("origin", Some(*id)),
-        Target::Light(id) | Target::Plan(id) => ("light", Some(*id)),
+        Target::Lanelet(id) => ("lanelet", Some(id.to_string())),
+        Target::Origin(id) => ("origin", Some(id.to_string())),
+        Target::Light(id) | Target::Plan(id) => ("light", Some(id.to_string())),
         Target::Parameter(..) | Target::Style(_) => ("style", None),
-        Target::Vehicle(id) => ("vehicle", Some(i64::from(*id))),
+        Target::Vehicle(id) => ("vehicle", Some(id.to_string())),
     }
 }
 
@@ -164,7 +170,7 @@ impl Columns {
         }
         let given = self.id.and_then(cell);
         let inserts = if matches!(command, Command::Insert(_)) { given } else { None };
-        if let Some(given) = given.filter(|it| inserts.is_none() && !is_id(it, id)) {
+        if let Some(given) = given.filter(|it| inserts.is_none() && id.as_deref() != Some(it.trim())) {
             let target = target.map_or_else(String::new, |it| it.to_string());
             let what = format!("the id is {given}, but the values concern {target}");
             return Err(wrong(what, "correct one of them, or leave the cell empty"));
@@ -175,11 +181,6 @@ impl Columns {
         let step = first_step_from(time_s, dt);
         Ok(Row { step, number, inserts: inserts.transpose()?, command })
     }
-}
-
-/// Whether a cell holds this id.
-fn is_id(cell: &str, id: Option<i64>) -> bool {
-    id.is_some_and(|id| cell.trim() == id.to_string())
 }
 
 /// The command that does `act` with `values`, a text in JSON.

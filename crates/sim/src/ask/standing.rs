@@ -1,6 +1,6 @@
 //! Why a vehicle stands, or hardly moves: the nearest of all that its driver reacts to.
 
-use laneweave_network::Position;
+use laneweave_network::{Id, Position};
 
 use crate::driver::lane_end::lane_end;
 use crate::driver::last_place::place_to_wait;
@@ -28,7 +28,7 @@ pub enum StandsFor {
         gap: f64,
     },
     /// A light, by its id in the map.
-    Light(i64),
+    Light(Id),
     /// A stop sign, at which it has not stopped yet.
     StopSign,
     /// It waits for its reservation before a conflict area.

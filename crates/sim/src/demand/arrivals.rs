@@ -48,6 +48,8 @@ pub(crate) struct Backlog {
     weights: Vec<f64>,
     /// By line of the demand.
     lines: Vec<LineCount>,
+    /// How many of the demand's departures have come.
+    departed: u32,
     next_id: VehicleId,
     /// That of the next vehicle that a user puts on the road.
     next_inserted: VehicleId,
@@ -60,15 +62,18 @@ impl Arrivals {
         let late = late_trips(network, navigator, &demand);
         let sources = Source::all(network, navigator, &demand, &late.late, &roads.random());
         for &LateTrip { origin, destination, .. } in &late.late {
-            if !sources[origin].leads_to(destination, Class::Car, navigator) {
-                demand.origins[origin].weights[destination] = 0.0;
+            let weight = demand.origins[origin].weights.get_mut(destination);
+            if let Some(weight) =
+                weight.filter(|_| !sources[origin].leads_to(destination, Class::Car, navigator))
+            {
+                *weight = 0.0;
             }
         }
         let perimeter = PerimeterControl::new(roads.network());
         let weights = demand.population.iter().map(|it| it.weight).collect();
         let lines = vec![LineCount::default(); demand.lines.len()];
         let (next_id, next_inserted) = (0, FIRST_INSERTED);
-        let backlog = Backlog { sources, perimeter, weights, lines, next_id, next_inserted };
+        let backlog = Backlog { sources, perimeter, weights, lines, departed: 0, next_id, next_inserted };
         Arrivals { demand: Arc::new(demand), late: Arc::new(late), backlog }
     }
 
@@ -148,6 +153,32 @@ impl Arrivals {
         self.backlog.perimeter.iter_mut().for_each(|it| it.measure(lanes));
     }
 
+    /// The vehicles whose departures are due by `time` [s] join the queues of their origins.
+    pub(crate) fn depart(&mut self, scene: &Scene, random: &Random, time: f64) {
+        let Arrivals { demand, backlog: Backlog { sources, departed, weights, lines, next_id, .. }, .. } =
+            self;
+        while let Some(due) = demand.departures.get(*departed as usize).filter(|it| it.time_s <= time) {
+            let id = *next_id;
+            let style = due.style.map(|it| &demand.population[it]);
+            let parameters =
+                style.map_or_else(|| demand.draw_driver(weights, random, id), |it| it.draw(random, id));
+            let goal = due.line.map_or(due.destination as u16, |it| demand.lines[it].goal(0));
+            let arrival = Arrival {
+                id,
+                time: due.time_s,
+                class: due.class,
+                parameters,
+                destination: scene.navigator.seen_by(due.class, Some(goal)),
+                is_through_town: false,
+                line: due.line.map(|it| it as u16),
+            };
+            sources[due.origin].join(scene, arrival);
+            due.line.into_iter().for_each(|it| lines[it].departed += 1);
+            *departed += 1;
+            *next_id += 1;
+        }
+    }
+
     /// The vehicles that arrive at an origin by `time` [s] join its queues.
     pub(crate) fn arrive(&mut self, origin: usize, scene: &Scene, random: &Random, time: f64) {
         let Arrivals { demand, backlog: Backlog { sources, perimeter, weights, lines, next_id, .. }, .. } =
@@ -193,7 +224,9 @@ impl Arrivals {
     /// Vehicles that have arrived, whether they entered or wait.
     pub(crate) fn count_arrived(&self) -> u64 {
         let of_lines = self.backlog.lines.iter().map(|it| u64::from(it.departed));
-        self.backlog.sources.iter().map(Source::arrived).chain(of_lines).sum()
+        let departed = self.demand.departures.iter().take(self.backlog.departed as usize);
+        let single = departed.filter(|it| it.line.is_none()).count() as u64;
+        self.backlog.sources.iter().map(Source::arrived).chain(of_lines).chain([single]).sum()
     }
 
     /// All of it that changes.
@@ -217,7 +250,7 @@ impl Backlog {
         driver_parameters: usize,
         is_known: impl Fn(Destination) -> bool,
     ) -> bool {
-        let Backlog { sources, perimeter, weights, lines, next_id: _, next_inserted } = self;
+        let Backlog { sources, perimeter, weights, lines, departed: _, next_id: _, next_inserted } = self;
         let perimeter_fits = match (perimeter, &other.perimeter) {
             (Some(one), Some(other)) => one.fits(other),
             (one, other) => one.is_none() && other.is_none(),

@@ -2,7 +2,7 @@
 
 use std::collections::BinaryHeap;
 
-use laneweave_network::{Beside, ChainIndex, Network, Side};
+use laneweave_network::{Beside, ChainIndex, Network, Position, Side};
 
 use crate::demand::{Demand, Origin, SECONDS_PER_HOUR};
 use crate::route::navigate::Navigator;
@@ -201,6 +201,10 @@ impl<'a> Spread<'a> {
                 lanes.iter().for_each(|it| self.come(*it, flow / lanes.len() as f64));
             }
             Place::Inside(inner) => self.go_on(inner.chain, inner.station, flow, true),
+            Place::Across(section) => {
+                let lanes: Vec<Position> = section.lanes().collect();
+                lanes.iter().for_each(|it| self.go_on(it.chain, it.x, flow / lanes.len() as f64, true));
+            }
         }
     }
 

@@ -47,6 +47,11 @@ pub enum WorldError {
         "line {0} has an origin, a stop or a destination that the demand does not have, or an impossible time"
     )]
     Line(String),
+    /// A departure has places or a style that the demand has not, or an impossible time.
+    #[error(
+        "the departures of single vehicles are not in order, or name places or styles that the demand does not have"
+    )]
+    Departures,
     /// The headways are impossible.
     #[error(transparent)]
     Headways(#[from] HeadwayError),

@@ -1,5 +1,6 @@
 //! Demand: how many vehicles arrive, of which kind, from where and to where, and at which headways.
 //!
+//! * `departure.rs` vehicles that depart at known times
 //! * `arrivals.rs` the part `Arrivals`; `source.rs` origins and their queues, `destinations.rs` where their trips lead;
 //!   `rate.rs`, `headways.rs` and `places.rs` when and where vehicles arrive
 //! * `perimeter_control.rs` when trips may begin through a full town
@@ -7,6 +8,7 @@
 
 pub(crate) mod arrivals;
 pub(crate) mod assignment;
+pub(crate) mod departure;
 pub(crate) mod destinations;
 pub(crate) mod error;
 pub(crate) mod headways;
@@ -18,6 +20,7 @@ pub(crate) mod source;
 
 use laneweave_network::Network;
 
+use crate::demand::departure::Departure;
 use crate::demand::error::WorldError;
 use crate::demand::headways::Headways;
 use crate::demand::line::{Departures, Line};
@@ -43,6 +46,8 @@ pub struct Demand {
     pub population: Vec<Share>,
     /// Lines of buses.
     pub lines: Vec<Line>,
+    /// Single vehicles, in the order of their times.
+    pub departures: Vec<Departure>,
     /// How many of the last destinations are stops of lines: no other trip ends there.
     pub stops: usize,
 }
@@ -67,6 +72,9 @@ pub enum Trips {
     InTime,
     /// All that have a weight: somebody has asked for them.
     All,
+    /// All that have a weight. Their vehicles come by [`Demand::departures`] alone: the rate and the weights say what
+    /// these are in the mean.
+    Scheduled,
 }
 
 /// A style's share of the drivers.
@@ -78,6 +86,14 @@ pub struct Share {
     pub first: u32,
     /// Number of its sets.
     pub count: u32,
+}
+
+impl Share {
+    /// The index of one of its sets of driver parameters for the vehicle `id`, drawn at random.
+    pub(crate) fn draw(&self, random: &Random, id: VehicleId) -> u32 {
+        let character = random.uniform(id, Purpose::Character, 0);
+        self.first + ((character * f64::from(self.count)) as u32).min(self.count - 1)
+    }
 }
 
 impl Demand {
@@ -110,6 +126,7 @@ impl Demand {
             fleet,
             population,
             lines: Vec::new(),
+            departures: Vec::new(),
             stops: 0,
         }
     }
@@ -119,17 +136,14 @@ impl Demand {
     /// The index of a set of driver parameters for the vehicle `id`, drawn at random from the population, whose styles
     /// have these `weights`.
     pub(crate) fn draw_driver(&self, weights: &[f64], random: &Random, id: VehicleId) -> u32 {
-        let uniform = |purpose| random.uniform(id, purpose, 0);
-        let mut at = uniform(Purpose::Style) * weights.iter().sum::<f64>();
+        let mut at = random.uniform(id, Purpose::Style, 0) * weights.iter().sum::<f64>();
         let drawn = self.population.iter().zip(weights).find(|(_, weight)| {
             at -= *weight;
             at < 0.0
         });
         // By rounding, nobody may be drawn: then it is the last style that anybody has.
         let last = || self.population.iter().zip(weights).rfind(|(_, weight)| **weight > 0.0);
-        drawn.or_else(last).map_or(0, |(it, _)| {
-            it.first + ((uniform(Purpose::Character) * f64::from(it.count)) as u32).min(it.count - 1)
-        })
+        drawn.or_else(last).map_or(0, |(it, _)| it.draw(random, id))
     }
 
     /// Checks that all its numbers are sensible.
@@ -171,6 +185,10 @@ impl Demand {
         if let Some(line) = self.lines.iter().find(|it| !self.knows(it)) {
             return Err(WorldError::Line(line.name.clone()));
         }
+        let is_after = |pair: &[Departure]| pair[0].time_s <= pair[1].time_s;
+        if !(self.departures.iter().all(|it| it.fits(self)) && self.departures.windows(2).all(is_after)) {
+            return Err(WorldError::Departures);
+        }
         if self.destinations.len() > Demand::MOST_DESTINATIONS {
             return Err(WorldError::Destinations(self.destinations.len(), Demand::MOST_DESTINATIONS));
         }
@@ -206,9 +224,10 @@ impl Demand {
         &self.destinations[..self.destinations.len() - self.stops]
     }
 
-    /// The classes that drive: those of the fleet and of lines.
+    /// The classes that drive: those of the fleet, of lines and of departures.
     pub(crate) fn classes(&self) -> Classes {
-        self.lines.iter().map(|it| it.class).collect::<Classes>().and(self.fleet.classes())
+        let single = self.departures.iter().map(|it| it.class);
+        self.lines.iter().map(|it| it.class).chain(single).collect::<Classes>().and(self.fleet.classes())
     }
 
     /// A rate above this at one origin is an error [veh/h].

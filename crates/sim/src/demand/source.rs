@@ -11,7 +11,7 @@ use crate::demand::destinations::destinations;
 use crate::demand::headways::Headways;
 use crate::demand::perimeter_control::PerimeterControl;
 use crate::demand::rate::Rate;
-use crate::demand::{Demand, SECONDS_PER_HOUR};
+use crate::demand::{Demand, SECONDS_PER_HOUR, Trips};
 use crate::junction::storage_section::StorageSection;
 use crate::route::in_time::LateTrip;
 use crate::route::navigate::Navigator;
@@ -83,8 +83,8 @@ pub(crate) struct Queue {
 /// How vehicles enter a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Start {
-    /// They are driving when they enter at its start.
-    Driving,
+    /// They are driving when they enter, with the rear bumper at this station [m].
+    Driving(f64),
     /// They start from rest, with the rear bumper at this station [m].
     FromRest(f64),
 }
@@ -105,8 +105,7 @@ impl Start {
     /// Where the rear bumper of a vehicle is when it enters [m].
     pub(crate) fn station(self) -> f64 {
         match self {
-            Start::Driving => 0.0,
-            Start::FromRest(station) => station,
+            Start::Driving(station) | Start::FromRest(station) => station,
         }
     }
 }
@@ -134,8 +133,13 @@ impl Source {
         let mut further = demand.origins.len() as u32..;
         let sources = demand.origins.iter().zip(0..).map(|(origin, number)| {
             let lanes = queues(network, &origin.place);
-            let count = if demand.headways == Headways::Exponential { 1 } else { origin.lanes(network) };
+            let count = match (origin.trips, demand.headways) {
+                (Trips::Scheduled, _) => 0,
+                (_, Headways::Exponential) => 1,
+                _ => origin.lanes(network),
+            };
             let numbers = std::iter::once(number).chain(further.by_ref().take(count.saturating_sub(1)));
+            let numbers = numbers.take(count);
             let destinations = destinations(network, navigator, (demand, number as usize), late);
             let leads = |class: &Class| !destinations[navigator.restriction_of(*class)].is_empty();
             let may_start =
@@ -145,7 +149,7 @@ impl Source {
             let possible = demand.fleet.classes().iter().filter(starts).collect();
             let mut source = Source {
                 headways: demand.headways,
-                rate: origin.rate.times(&Rate::constant(1.0 / count as f64)),
+                rate: origin.rate.times(&Rate::constant(1.0 / count.max(1) as f64)),
                 user_rate: None,
                 streams: numbers.map(|number| Stream { number, arrived: 0, next: 0.0 }).collect(),
                 lanes,
@@ -205,6 +209,9 @@ impl Source {
     /// Sets the rate at which vehicles arrive after `time` [s] to `rate` [veh/h]. The time of the next arrival is drawn
     /// anew.
     pub(crate) fn set_rate(&mut self, rate: f64, random: &Random, time: f64) {
+        if self.streams.is_empty() {
+            return;
+        }
         self.user_rate = Some(rate);
         self.rate = Rate::constant(rate / self.streams.len() as f64);
         for stream in 0..self.streams.len() {
@@ -351,9 +358,13 @@ fn queues(network: &Network, place: &Place) -> Vec<Queue> {
     let queue = |chain, start| Queue { chain, start, waiting: VecDeque::new(), asks_since: None };
     match place {
         Place::Gate(gate) => {
-            from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving)).collect()
+            from_the_slow_side(network, gate).into_iter().map(|it| queue(it, Start::Driving(0.0))).collect()
         }
         Place::Inside(inner) => vec![queue(inner.chain, Start::FromRest(inner.station))],
+        Place::Across(section) => {
+            let start = if section.is_passed { Start::Driving } else { Start::FromRest };
+            section.lanes().map(|it| queue(it.chain, start(it.x))).collect()
+        }
     }
 }
 

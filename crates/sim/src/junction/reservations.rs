@@ -211,6 +211,10 @@ impl Reservations {
             self.queues[hold.zone.at()].push(Holder { slot, side: hold.side });
         }
         reservation.lights.extend(survey.lights.iter().map(|(light, at)| (*light, base + at)));
+        // Where it kept space before, it no longer stops.
+        for space in reservation.kept_spaces.drain(..) {
+            self.kept[space.on] -= space.length;
+        }
         if let Some(on) = self.numbers.of_section(survey.section) {
             let length = (survey.needed * CENTIMETRES).ceil() as u64;
             self.kept[on] += length;

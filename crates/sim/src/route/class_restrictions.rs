@@ -81,9 +81,19 @@ impl ClassRestrictions {
 
 /// The chains that long vehicles avoid; `None` if they drive where all others do.
 fn tight(network: &Network) -> Option<Vec<bool>> {
-    let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&it.centre) < TIGHTEST_TURN;
+    let is_tight = |it: &Chain| it.is_tight_for_long || tightest_turn(&way_over(network, it)) < TIGHTEST_TURN;
     let all: Vec<bool> = network.chains.iter().map(is_tight).collect();
     (all.contains(&true) || network.chains.iter().any(|it| it.open != Chain::WIDE)).then_some(all)
+}
+
+/// The centre line of a chain, prolonged by the only chain before it and the only one after it: a turn in a junction
+/// may be shorter than the arms of its turn.
+fn way_over(network: &Network, chain: &Chain) -> Polyline {
+    let only = |chains: &[ChainIndex]| if let [only] = chains { Some(network.chain(*only)) } else { None };
+    let before = only(&chain.previous).map(|it| it.centre.at(it.length - ARM));
+    let next = only(&chain.following).map(|it| it.centre.at(ARM));
+    let line = before.into_iter().chain(chain.centre.points().iter().copied()).chain(next);
+    Polyline::new(line).unwrap_or_else(|| chain.centre.clone())
 }
 
 /// The least radius of a line [m]. Each circle goes through a point of the line and through the points one arm before
@@ -175,6 +185,25 @@ mod tests {
         {
             assert_eq!(chosen(class, &[5.0, 50.0]), Some(ChainIndex(expected)), "{class:?}");
         }
+    }
+
+    #[test]
+    fn a_turn_back_that_is_shorter_than_its_arms_is_tight() {
+        let line = |points: &[(f64, f64)]| {
+            Polyline::new(points.iter().map(|(x, y)| Point::new(*x, *y, 0.0))).expect("a line")
+        };
+        let back = line(&[(50.0, 0.0), (51.4, 0.9), (51.4, 2.3), (50.0, 3.2)]);
+        let all = vec![
+            lanelet(1, line(&[(0.0, 0.0), (50.0, 0.0)]), &[1, 2]),
+            lanelet(2, back, &[3]),
+            lanelet(3, line(&[(50.0, 0.0), (99.0, 0.0)]), &[]),
+            lanelet(4, line(&[(50.0, 3.2), (0.0, 3.2)]), &[]),
+            lanelet(5, line(&[(99.0, 3.2), (50.0, 3.2)]), &[3]),
+        ];
+        let network = Network::new(all, DrivingSide::Right).expect("the lanelets fit");
+        let tight = tight(&network).expect("it turns");
+        let of = |id: i64| tight[network.start_of(network.lanelet_with(id).expect("it is there")).chain.at()];
+        assert_eq!([1, 2, 3, 4, 5].map(of), [false, true, false, false, false]);
     }
 
     #[test]

@@ -65,10 +65,10 @@ impl Navigator {
         let mut lanes = place.chains().iter().filter(|it| network.chain(**it).classes.has(class));
         match place {
             Place::Gate(_) => lanes.any(|it| latest[it.at()] >= 0.0),
-            Place::Inside(inner) => lanes.any(|it| {
+            Place::Inside(_) | Place::Across(_) => lanes.any(|it| {
                 let beyond = network.chain(*it).following.iter().map(|next| latest[next.at()]);
                 let over_the_end = network.chain(*it).length + beyond.fold(f64::NEG_INFINITY, f64::max);
-                latest[it.at()].max(over_the_end) >= inner.station
+                latest[it.at()].max(over_the_end) >= place.end_on(*it).unwrap_or(0.0)
             }),
         }
     }

@@ -7,6 +7,7 @@
 //! * `disutility.rs` turns and lights on a route; `fitting_speed.rs` the desired speed before and in bends and lower
 //!   limits
 //! * `links.rs`, `guidance.rs` and `renew_routes.rs` measured travel times, and the routes planned with them
+//! * `given_ways.rs` stops of lines, and ends of fixed ways
 //! * `reachable.rs` which destinations can be reached, and `in_time.rs` which of them with road enough; `wander.rs` the
 //!   way of drivers without one
 //! * `class_restrictions.rs` which lanes a class may not use, or avoids; `closures.rs` which lanelets users closed, and
@@ -16,6 +17,7 @@ pub(crate) mod class_restrictions;
 pub(crate) mod closures;
 pub(crate) mod disutility;
 pub(crate) mod fitting_speed;
+mod given_ways;
 pub(crate) mod guidance;
 pub(crate) mod in_time;
 pub(crate) mod links;

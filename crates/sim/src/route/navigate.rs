@@ -12,9 +12,10 @@ use laneweave_network::{ChainIndex, Classes, Network};
 
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::closures::Closures;
+use crate::route::given_ways::on_any_way;
 use crate::route::links::Links;
 use crate::route::onward::Onward;
-use crate::route::place::{InnerPlace, Place};
+use crate::route::place::Place;
 use crate::route::renew_routes::is_planned;
 use crate::route::walk::Walk;
 use crate::route::waypoint::Waypoint;
@@ -43,6 +44,8 @@ pub(super) struct Routes {
     pub(super) of_restriction: usize,
     /// How many of the last destinations are stops of lines.
     pub(super) stops: usize,
+    /// For each destination with a way of its own the number of the same one that is reached over any roads.
+    pub(super) on_any_way: Vec<Option<u16>>,
     /// For each table of a usual route, the table with the newest recommendation; empty without guidance.
     pub(super) recommended: Vec<u16>,
     pub(super) links: Links,
@@ -89,6 +92,7 @@ impl Navigator {
             onward: Onward::default(),
             of_restriction: destinations.len() + 1,
             stops,
+            on_any_way: on_any_way(destinations),
             recommended: Vec::new(),
             links: Links::default(),
             measurements: 0,
@@ -109,18 +113,6 @@ impl Navigator {
         }
         routes.look_onward(network);
         Navigator { routes: Arc::new(routes), closures: Closures::default() }
-    }
-
-    /// Whether a destination is a stop of a line.
-    pub(crate) fn is_stop(&self, destination: Destination) -> bool {
-        self.number(destination).is_some_and(|it| it >= self.routes.chosen())
-    }
-
-    /// Where on `chain` the place beyond the stop is [m], if `destination` is a stop on it.
-    pub(super) fn stop_on(&self, destination: Destination, chain: ChainIndex) -> Option<f64> {
-        let is_there = |it: &f64| it.is_finite();
-        let stop = self.is_stop(destination).then(|| self.waypoint(destination, chain).end);
-        stop.filter(is_there)
     }
 
     /// Whether the route to a destination is planned.
@@ -377,9 +369,11 @@ impl Routes {
         if table % self.of_restriction >= self.chosen() {
             return;
         }
-        if let Place::Inside(InnerPlace { chain, station, .. }) = place {
-            let goal = Goal::from(Some(table as u16));
-            self.trip_ends[chain.at()].push(TripEnd { station: *station, goal });
+        let goal = Goal::from(Some(table as u16));
+        for chain in place.chains() {
+            if let Some(station) = place.end_on(*chain) {
+                self.trip_ends[chain.at()].push(TripEnd { station, goal });
+            }
         }
     }
 

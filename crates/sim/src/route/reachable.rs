@@ -30,8 +30,13 @@ impl Navigator {
     }
 
     /// The destination of least time that can be reached from `x` on `chain`, also over its end, for a driver with the
-    /// old destination `before`. `None` if there is none: the driver then follows the road.
+    /// old destination `before`: the same one, if that has a way of its own which the driver has left. `None` if there
+    /// is none: the driver then follows the road.
     pub fn nearest(&self, network: &Network, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+        let leads = |it: &Destination| self.waypoint_from(network, *it, chain, x).leads_on(x);
+        if let Some(same) = self.on_any_way(before).filter(leads) {
+            return same;
+        }
         let first = before.map_or(0, |it| self.restriction(it)) * self.routes.of_restriction;
         let all = (first..first + self.routes.chosen()).map(|it| Some(it as u16));
         let reachable = all.filter_map(|it| {
@@ -44,6 +49,10 @@ impl Navigator {
     /// The destination of least time to which the usual route leads from `x` on `chain`, for a driver with the old
     /// destination `before`.
     pub(crate) fn nearest_in_lane(&self, before: Destination, chain: ChainIndex, x: f64) -> Destination {
+        let leads = |it: &Destination| self.waypoint(*it, chain).leads_on(x);
+        if let Some(same) = self.on_any_way(before).filter(leads) {
+            return same;
+        }
         let restriction = before.map_or(0, |it| self.restriction(it));
         let reachable = self.reachable_in(restriction, chain, x);
         reachable.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(destination, _)| destination)
@@ -71,6 +80,10 @@ impl Navigator {
                 let distance = waypoint.distance - station;
                 waypoint.leads_there() && distance >= Navigator::SHORTEST_TRIP
             }
+            Place::Across(section) => section.lanes().filter(|it| may_start(&&it.chain)).any(|it| {
+                let waypoint = self.waypoint_from(network, Some(destination), it.chain, it.x);
+                waypoint.leads_there() && waypoint.leads_on(it.x)
+            }),
         }
     }
 }

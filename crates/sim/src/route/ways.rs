@@ -4,7 +4,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use laneweave_network::{Beside, Chain, ChainIndex, Class, Network, Position, Side};
+use laneweave_network::{Beside, Chain, ChainIndex, Class, Id, Network, Position, Side};
 
 use crate::route::class_restrictions::ClassRestrictions;
 use crate::route::disutility::Disutility;
@@ -131,10 +131,8 @@ impl Planner<'_> {
 
     /// The waypoint of a chain on which trips to `place` end.
     fn goal(&self, place: &Place, index: ChainIndex) -> Waypoint {
-        let (until, end) = match place {
-            Place::Gate(_) => (self.network.chain(index).length, f64::INFINITY),
-            Place::Inside(inner) => (inner.station, inner.station),
-        };
+        let station = place.end_on(index);
+        let until = station.unwrap_or(self.network.chain(index).length);
         Waypoint {
             changes: 0,
             via: index,
@@ -142,7 +140,7 @@ impl Planner<'_> {
             next: None,
             time: self.time(index, until) + crossing_time(self.network, index),
             distance: until,
-            end,
+            end: station.unwrap_or(f64::INFINITY),
             disutility: Disutility::until(self.network, index, until),
             ..Waypoint::NOWHERE
         }
@@ -192,10 +190,7 @@ impl Planner<'_> {
             let Waypoint { changes, via, last_place, .. } = table[chain.at()];
             let onward = table[via.at()];
             table[chain.at()].time = if via == chain {
-                let until = match place {
-                    Place::Gate(_) => self.network.chain(chain).length,
-                    Place::Inside(inner) => inner.station,
-                };
+                let until = place.end_on(chain).unwrap_or(self.network.chain(chain).length);
                 self.time(chain, until) + crossing_time(self.network, chain)
             } else if changes == onward.changes {
                 let it = self.network.chain(chain);
@@ -248,7 +243,8 @@ enum Room {
 }
 
 /// A search for the best routes, backwards from a destination.
-struct Search {
+struct Search<'a> {
+    place: &'a Place,
     table: Vec<Waypoint>,
     ranks: Vec<Rank>,
     open: BinaryHeap<(Reverse<Rank>, ChainIndex)>,
@@ -256,10 +252,11 @@ struct Search {
     is_settled: Vec<bool>,
 }
 
-impl Search {
-    fn new(planner: &Planner, place: &Place) -> Search {
+impl<'a> Search<'a> {
+    fn new(planner: &Planner, place: &'a Place) -> Search<'a> {
         let chains = planner.network.chains.len();
         let mut search = Search {
+            place,
             table: vec![Waypoint::NOWHERE; chains],
             ranks: vec![rank(planner.network, &Waypoint::NOWHERE); chains],
             open: BinaryHeap::new(),
@@ -278,7 +275,10 @@ impl Search {
     fn offer(&mut self, network: &Network, to: ChainIndex, waypoint: Waypoint) {
         let new = rank(network, &waypoint);
         let is_better = new < self.ranks[to.at()] && !self.is_settled[to.at()];
-        if is_better && (waypoint.via == to || !self.leads_to(to, waypoint.via)) {
+        if is_better
+            && self.place.is_reached_over(to)
+            && (waypoint.via == to || !self.leads_to(to, waypoint.via))
+        {
             (self.table[to.at()], self.ranks[to.at()]) = (waypoint, new);
             self.open.push((Reverse(new), to));
         }
@@ -365,13 +365,13 @@ pub(crate) fn free_time(chain: &Chain, until: f64) -> f64 {
 }
 
 /// See [`rank`].
-type Rank = (i64, i64, i64);
+type Rank = (i64, i64, Option<Id>);
 
 /// The rank of a waypoint: of two waypoints of a chain, that with the lower rank is better. It has less cost [µs, so
 /// that equal routes count as equal], then a later last place [mm], then the next lanelet with the smaller id. It does
 /// not depend on how chains are stored.
 fn rank(network: &Network, waypoint: &Waypoint) -> Rank {
-    let next = waypoint.next.map_or(i64::MIN, |it| network.lanelet_at(Position::new(it, 0.0)).0.id);
+    let next = waypoint.next.map(|it| network.lanelet_at(Position::new(it, 0.0)).0.id);
     ((waypoint.cost() * 1e6).round() as i64, -(waypoint.last_place * 1e3).round() as i64, next)
 }
 

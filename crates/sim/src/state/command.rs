@@ -3,7 +3,7 @@
 use std::fmt;
 
 use laneweave_models::Parameter;
-use laneweave_network::LightState;
+use laneweave_network::{Id, LightState};
 use serde::{Deserialize, Serialize};
 
 use crate::state::control::Control;
@@ -23,11 +23,11 @@ pub enum Command {
     /// Gives the driver of a vehicle another style, by its name.
     SetStyle(VehicleId, String),
     /// Gives a driver another destination, by its smallest lanelet id. `None`: it follows the road.
-    SetDestination(VehicleId, Option<i64>),
+    SetDestination(VehicleId, Option<Id>),
     /// Sets the demand at an origin from now on.
     SetDemand {
         /// The smallest lanelet id of the origin.
-        origin: i64,
+        origin: Id,
         /// Vehicles that arrive per hour.
         vehicles_per_hour: f64,
     },
@@ -41,21 +41,21 @@ pub enum Command {
     /// Makes a light show a state, whatever its program says. `None`: it follows its program again.
     SetLight {
         /// The id of the light.
-        light: i64,
+        light: Id,
         /// What it shows.
         shows: Option<LightState>,
     },
     /// Gives the signal plan of a light another offset. The phases of the plan take longer until it is there.
     SetOffset {
         /// The id of a light of the plan.
-        light: i64,
+        light: Id,
         /// When the first phase of the plan begins, and of every further cycle [s].
         offset_s: f64,
     },
     /// Closes a lanelet to all vehicles, or opens it again. Those on it drive off it.
     CloseLanelet {
         /// The id of the lanelet.
-        lanelet: i64,
+        lanelet: Id,
         /// Whether it is closed from now on.
         is_closed: bool,
     },
@@ -75,7 +75,7 @@ pub enum Command {
 #[serde(deny_unknown_fields)]
 pub struct NewVehicle {
     /// The id of the lanelet on which its front bumper is.
-    pub lanelet: i64,
+    pub lanelet: Id,
     /// Position of its front bumper along the lanelet [m].
     pub position_m: f64,
     /// Speed [m/s].
@@ -85,7 +85,7 @@ pub struct NewVehicle {
     /// The name of its driver's style: one of the styles of the scenario.
     pub style: String,
     /// The smallest lanelet id of its destination. `None`: it follows the road.
-    pub destination: Option<i64>,
+    pub destination: Option<Id>,
 }
 
 /// A command that was carried out.
@@ -103,13 +103,13 @@ pub struct Commanded {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
     /// A lanelet, by its id.
-    Lanelet(i64),
+    Lanelet(Id),
     /// An origin, by its smallest lanelet id.
-    Origin(i64),
+    Origin(Id),
     /// A light, by its id.
-    Light(i64),
+    Light(Id),
     /// The signal plan of a light, by the light's id.
-    Plan(i64),
+    Plan(Id),
     /// A parameter of a style, by the style's name.
     Parameter(String, Parameter),
     /// A style, by its name.

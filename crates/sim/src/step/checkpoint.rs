@@ -154,7 +154,7 @@ impl Identity {
         for chain in &network.chains {
             hash.update(&chain.length.to_bits().to_le_bytes());
             let ids = chain.lanelets.iter().map(|it| network.lanelets[it.at()].id);
-            ids.for_each(|id| hash.update(&id.to_le_bytes()));
+            ids.for_each(|id| id.hash_with(|bytes| hash.update(bytes)));
             chain.following.iter().for_each(|it| hash.update(&it.0.to_le_bytes()));
         }
         Identity {

@@ -3,7 +3,7 @@
 use std::iter::Zip;
 use std::slice::Iter;
 
-use laneweave_network::{Chain, LaneletIndex};
+use laneweave_network::{Chain, Id, LaneletIndex};
 
 use crate::state::lane::{Kinematics, Phase, VehicleId};
 use crate::state::vehicle::Class;
@@ -35,7 +35,7 @@ pub struct Columns {
     /// Styles of the drivers, as indices of the styles of the scenario.
     pub style: Vec<u32>,
     /// Destinations, by their smallest lanelet ids; `None` where the driver follows the road.
-    pub destination: Vec<Option<i64>>,
+    pub destination: Vec<Option<Id>>,
     /// Lengths [m].
     pub length_m: Vec<f64>,
     /// Widths [m].

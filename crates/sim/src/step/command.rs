@@ -3,6 +3,7 @@
 //! nothing.
 
 use laneweave_models::Parameter;
+use laneweave_network::Id;
 
 use crate::demand::{Demand, SECONDS_PER_HOUR};
 use crate::route::closures::Closures;
@@ -111,7 +112,7 @@ impl World {
     }
 
     /// Checks that the plan of a light can have this offset.
-    fn check_offset(&self, light: i64, offset_s: f64) -> Result<(), CommandError> {
+    fn check_offset(&self, light: Id, offset_s: f64) -> Result<(), CommandError> {
         /// A day [s].
         const LONGEST: f64 = 86_400.0;
         self.light_with(light)?;
@@ -132,7 +133,7 @@ impl World {
     }
 
     /// Checks that drivers can leave the lane of a lanelet before it, and of all that are closed with it.
-    fn check_closing(&self, lanelet: i64, is_closed: bool) -> Result<(), CommandError> {
+    fn check_closing(&self, lanelet: Id, is_closed: bool) -> Result<(), CommandError> {
         let index = self.lanelet_with(lanelet)?;
         if !is_closed {
             return Ok(());
@@ -165,7 +166,7 @@ impl World {
     }
 
     /// Checks that the driver of a vehicle can take another destination now.
-    fn check_destination(&self, id: VehicleId, destination: Option<i64>) -> Result<(), CommandError> {
+    fn check_destination(&self, id: VehicleId, destination: Option<Id>) -> Result<(), CommandError> {
         let Some(name) = destination else { return Ok(()) };
         let number = self.destination(name)?;
         let vehicle = self.vehicle(id).ok_or(CommandError::NoVehicle(id))?;

@@ -1,6 +1,7 @@
 //! Why a command is refused.
 
 use laneweave_models::Parameter;
+use laneweave_network::Id;
 use thiserror::Error;
 
 use crate::state::lane::VehicleId;
@@ -50,7 +51,7 @@ pub enum CommandError {
     #[error("nothing can be put at {position_m:.1} m of lanelet {lanelet}: {why}")]
     Place {
         /// The lanelet.
-        lanelet: i64,
+        lanelet: Id,
         /// The position along it [m].
         position_m: f64,
         /// Why not, and what to do.
@@ -66,7 +67,7 @@ pub enum CommandError {
     #[error("light {light} has no offset: {why}; choose a light with a fixed plan")]
     Offset {
         /// The light.
-        light: i64,
+        light: Id,
         /// Why not.
         why: &'static str,
     },
@@ -74,7 +75,7 @@ pub enum CommandError {
     #[error("lanelet {lanelet} cannot be closed: {why}")]
     Closing {
         /// The lanelet.
-        lanelet: i64,
+        lanelet: Id,
         /// Why not, and what to do.
         why: &'static str,
     },
@@ -96,7 +97,7 @@ pub enum CommandError {
         /// The vehicle.
         vehicle: VehicleId,
         /// The destination.
-        destination: i64,
+        destination: Id,
         /// Why not, and what to do.
         why: &'static str,
     },

@@ -44,6 +44,7 @@ pub(crate) fn enter(
     let (is_full, time) = (arrivals.is_full(), traffic.clock().time());
     let survey = &mut work.outbox().survey;
     let mut entering = Entering { roads, traffic, junctions, log };
+    arrivals.depart(&entering.scene(), &roads.random(), time);
     for origin in 0..arrivals.sources().len() {
         arrivals.arrive(origin, &entering.scene(), &roads.random(), time);
         for queue in arrivals.queues_mut(origin) {
@@ -107,7 +108,7 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
     let ahead = scene.ahead(from).map(|it| Ahead { gap: it.gap - length, ..it });
     let ahead = nearer(ahead, before);
     let speed = match queue.start {
-        Start::Driving => {
+        Start::Driving(_) => {
             let Scene { network, navigator, .. } = *scene;
             let outlook = Outlook { network, navigator, style, class, destination };
             let desired = outlook.fitting_speed(Position::new(chain, x), 0.0);

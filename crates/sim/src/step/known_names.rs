@@ -1,6 +1,6 @@
 //! What the names in a command stand for, or a refusal that says which names there are.
 
-use laneweave_network::{LaneletIndex, LightIndex};
+use laneweave_network::{Id, LaneletIndex, LightIndex};
 
 use crate::route::place::Place;
 use crate::state::lane::VehicleId;
@@ -26,7 +26,7 @@ impl World {
 
     /// # Errors
     /// If there is no such destination.
-    pub(super) fn destination(&self, name: i64) -> Result<u16, CommandError> {
+    pub(super) fn destination(&self, name: Id) -> Result<u16, CommandError> {
         let demand = self.arrivals.demand();
         names::destination(demand, name)
             .ok_or_else(|| unknown("destination", &name.to_string(), ids(demand.exits().iter())))
@@ -34,7 +34,7 @@ impl World {
 
     /// # Errors
     /// If there is no such origin.
-    pub(super) fn origin(&self, name: i64) -> Result<usize, CommandError> {
+    pub(super) fn origin(&self, name: Id) -> Result<usize, CommandError> {
         let demand = self.arrivals.demand();
         let places = || ids(demand.origins.iter().map(|it| &it.place));
         names::origin(demand, name).ok_or_else(|| unknown("origin", &name.to_string(), places()))
@@ -42,7 +42,7 @@ impl World {
 
     /// # Errors
     /// If there is no such lanelet.
-    pub(super) fn lanelet_with(&self, name: i64) -> Result<LaneletIndex, CommandError> {
+    pub(super) fn lanelet_with(&self, name: Id) -> Result<LaneletIndex, CommandError> {
         self.roads.network().lanelet_with(name).ok_or_else(|| CommandError::Unknown {
             what: "lanelet",
             name: name.to_string(),
@@ -52,7 +52,7 @@ impl World {
 
     /// # Errors
     /// If there is no such light.
-    pub(super) fn light_with(&self, name: i64) -> Result<LightIndex, CommandError> {
+    pub(super) fn light_with(&self, name: Id) -> Result<LightIndex, CommandError> {
         let network = self.roads.network();
         let lights = || network.junctions.lights.iter().map(|it| it.id.to_string());
         names::light(network, name).ok_or_else(|| unknown("light", &name.to_string(), lights()))

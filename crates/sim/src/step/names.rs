@@ -1,6 +1,6 @@
 //! What the names in commands stand for.
 
-use laneweave_network::{InPlan, LightIndex, Network};
+use laneweave_network::{Id, InPlan, LightIndex, Network};
 
 use crate::demand::{Demand, Share};
 use crate::route::roads::Roads;
@@ -23,23 +23,23 @@ pub(super) fn style(roads: &Roads, demand: &Demand, name: &str) -> Option<usize>
 }
 
 /// The destination with this name.
-pub(super) fn destination(demand: &Demand, name: i64) -> Destination {
+pub(super) fn destination(demand: &Demand, name: Id) -> Destination {
     demand.exits().iter().zip(0..).find(|(it, _)| it.id() == name).map(|(_, number)| number)
 }
 
 /// The origin with this name.
-pub(super) fn origin(demand: &Demand, name: i64) -> Option<usize> {
+pub(super) fn origin(demand: &Demand, name: Id) -> Option<usize> {
     demand.origins.iter().position(|it| it.place.id() == name)
 }
 
 /// The light with this name.
-pub(super) fn light(network: &Network, name: i64) -> Option<LightIndex> {
+pub(super) fn light(network: &Network, name: Id) -> Option<LightIndex> {
     let lights = network.junctions.lights.iter().zip(0..);
     lights.into_iter().find(|(it, _)| it.id == name).map(|(_, index)| LightIndex(index))
 }
 
 /// The plan of the light with this name, if it has one, and the length of its cycle [s].
-pub(super) fn plan(network: &Network, name: i64) -> Option<(InPlan, f64)> {
+pub(super) fn plan(network: &Network, name: Id) -> Option<(InPlan, f64)> {
     let light = &network.junctions.lights[self::light(network, name)?.at()];
     light.plan.map(|it| (it, light.program.cycle))
 }

@@ -4,7 +4,7 @@
 //! So it is no vehicle of the traffic: it has no trip, and is not counted. A scenario puts it there between two steps;
 //! it is no command of a user.
 
-use laneweave_network::{Footprint, Pose, Position, Rectangle};
+use laneweave_network::{Footprint, Id, Pose, Position, Rectangle};
 
 use crate::route::standing::Standing;
 use crate::state::control::Control;
@@ -30,7 +30,7 @@ impl World {
     /// If there is no such lanelet, or no such place in it, or a size is not in its range.
     pub fn obstacle_in_lane(
         &self,
-        lanelet: i64,
+        lanelet: Id,
         position_m: f64,
         [length, width]: [f64; 2],
     ) -> Result<Rectangle, CommandError> {

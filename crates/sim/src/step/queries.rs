@@ -302,7 +302,7 @@ impl World {
             let (lanelet, along) =
                 self.roads.network().lanelet_at(Position::new(vehicle.spot.chain, vehicle.x()));
             hash.update(&vehicle.id().to_le_bytes());
-            hash.update(&lanelet.id.to_le_bytes());
+            lanelet.id.hash_with(|bytes| hash.update(bytes));
             hash.update(&along.to_bits().to_le_bytes());
             hash.update(&vehicle.speed().to_bits().to_le_bytes());
             hash.update(&[vehicle.driver.phase as u8]);

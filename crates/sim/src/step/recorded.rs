@@ -5,7 +5,7 @@
 
 use laneweave_models::Style;
 use laneweave_models::follow::{Ahead, CarFollowing, Pace};
-use laneweave_network::{ChainIndex, Footprint, Point, Pose, Position, Rectangle};
+use laneweave_network::{ChainIndex, Footprint, Id, Point, Pose, Position, Rectangle};
 
 use crate::record::lanelet_aggregates::Mark;
 use crate::record::trip_log::TripRecord;
@@ -183,7 +183,7 @@ impl World {
     ///
     /// # Panics
     /// If there are no such driver parameters.
-    pub fn release_recorded(&mut self, id: VehicleId, destination: Option<i64>, parameters: u32) -> bool {
+    pub fn release_recorded(&mut self, id: VehicleId, destination: Option<Id>, parameters: u32) -> bool {
         let is_recorded = self.traffic.externals().body(id).is_some_and(|it| it.off_road.is_none());
         let Some(spot) = self.index.spot(self.traffic.lanes(), id).filter(|_| is_recorded) else {
             return false;

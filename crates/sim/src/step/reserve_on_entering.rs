@@ -60,7 +60,7 @@ pub(crate) fn entry(
     let length = arrival.class.body().length;
     let reach = WAITS_BEFORE + length + STANDS_BEFORE_A_ZONE;
     let [first_place, _] = scene.network.junctions.places(queue.chain);
-    if queue.start != Start::Driving || first_place > reach {
+    if queue.start != Start::Driving(0.0) || first_place > reach {
         return Entry::Free;
     }
     let mut applicant = applicant(scene, queue, arrival);

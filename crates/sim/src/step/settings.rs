@@ -2,7 +2,7 @@
 //! reads what it has set.
 
 use laneweave_models::Parameter;
-use laneweave_network::LightState;
+use laneweave_network::{Id, LightState};
 
 use crate::state::command::Command;
 use crate::state::control::Control;
@@ -44,7 +44,7 @@ impl World {
     }
 
     /// The demand at an origin now [veh/h].
-    pub fn demand_at(&self, origin: i64) -> Option<f64> {
+    pub fn demand_at(&self, origin: Id) -> Option<f64> {
         let waiting = self.waiting_command(|it| match it {
             Command::SetDemand { origin: of, vehicles_per_hour } => {
                 (*of == origin).then_some(*vehicles_per_hour)
@@ -60,7 +60,7 @@ impl World {
     }
 
     /// What a user makes a light show, whatever its program says; the inner `None` if its program decides.
-    pub fn light_override(&self, light: i64) -> Option<Option<LightState>> {
+    pub fn light_override(&self, light: Id) -> Option<Option<LightState>> {
         let waiting = self.waiting_command(|it| match it {
             Command::SetLight { light: of, shows } => (*of == light).then_some(*shows),
             _ => None,
@@ -73,7 +73,7 @@ impl World {
 
     /// The offset of the plan of a light: when its first phase begins, and every further cycle [s]. A plan that comes
     /// to a new offset has the new one. `None` if the light has no plan.
-    pub fn offset(&self, light: i64) -> Option<f64> {
+    pub fn offset(&self, light: Id) -> Option<f64> {
         let network = self.roads.network();
         let (plan, _) = names::plan(network, light)?;
         let waiting = self.waiting_command(|it| match it {
@@ -86,7 +86,7 @@ impl World {
     }
 
     /// Whether a lanelet is closed. `None` if there is no such lanelet.
-    pub fn is_closed(&self, lanelet: i64) -> Option<bool> {
+    pub fn is_closed(&self, lanelet: Id) -> Option<bool> {
         let waiting = self.waiting_command(|it| match it {
             Command::CloseLanelet { lanelet: of, is_closed } => (*of == lanelet).then_some(*is_closed),
             _ => None,

@@ -1,7 +1,7 @@
 //! A vehicle of a world.
 
 use laneweave_models::Style;
-use laneweave_network::{Point, Pose};
+use laneweave_network::{Id, Point, Pose};
 
 use crate::state::externals::Body;
 use crate::state::lane::{DriverState, Kinematics, LaneChangeState, VehicleId};
@@ -102,7 +102,7 @@ impl Vehicle<'_> {
     }
 
     /// The smallest lanelet id of its destination. `None`: it follows the road.
-    pub fn destination(&self) -> Option<i64> {
+    pub fn destination(&self) -> Option<Id> {
         let number = self.world.roads.navigator().number(self.driver.goal.destination())?;
         Some(self.world.demand().destinations.get(number)?.id())
     }

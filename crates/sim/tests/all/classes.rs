@@ -169,7 +169,7 @@ fn with_stops_at(
     let lanelets = [1, 3, 5, 7, 9].map(|id| (id, network.lanelet_with(id).expect("it is there")));
     let places = lanelets.map(|(id, it)| {
         let Position { chain, x } = network.start_of(it);
-        Place::Inside(InnerPlace { id, chain, station: x + place + LineStop::MARGIN })
+        Place::Inside(InnerPlace { id: id.into(), chain, station: x + place + LineStop::MARGIN })
     });
     demand.destinations.extend(places);
     demand.origins.iter_mut().for_each(|it| it.weights.extend([0.0; 5]));
@@ -258,7 +258,8 @@ fn a_stop_just_behind_the_entrance_is_served_at_any_step() {
 fn a_bus_goes_round_an_obstacle_before_its_stop() {
     for before_stop in [0.0, 40.0, 90.0] {
         let mut world = with_line(|_, _| Classes::ALL, 60.0, 400.0, 1);
-        let ground = world.obstacle_in_lane(3, 300.0 - before_stop, [4.5, 1.8]).expect("it is possible");
+        let ground =
+            world.obstacle_in_lane(3.into(), 300.0 - before_stop, [4.5, 1.8]).expect("it is possible");
         world.put_obstacle(0, &ground).expect("its place is free");
         (0..12_000).for_each(|_| world.step());
         let LineCount { departed, served, missed } = world.lines()[0];
@@ -305,8 +306,14 @@ fn who_has_no_destination_goes_where_its_class_may_go() {
     for class in [Class::Bus, Class::Car, Class::Truck] {
         let mut world = traffic(street(3000.0, bus_lane), 0.0, 1);
         let style = "conservative".into();
-        let new =
-            NewVehicle { lanelet: 1, position_m: 50.0, speed_mps: 10.0, class, style, destination: None };
+        let new = NewVehicle {
+            lanelet: 1.into(),
+            position_m: 50.0,
+            speed_mps: 10.0,
+            class,
+            style,
+            destination: None,
+        };
         world.command(Command::Insert(new)).expect("its place is free");
         let special = world.network().start_of(world.network().lanelet_with(5).expect("it is there")).chain;
         let mut was_there = false;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::roads::{Road, drivers, real};
-use laneweave_network::{ChainIndex, LaneletIndex, Network};
+use laneweave_network::{ChainIndex, Id, LaneletIndex, Network};
 use laneweave_sim::{
     Assignment, Class, Command, Demand, Destination, Event, Fleet, InnerPlace, Navigator, Place, Placement,
     Places, Setup, VehicleId, World, wait_cycle,
@@ -71,14 +71,14 @@ fn drive(world: &mut World, places: &Places, steps: usize) -> u64 {
 #[test]
 fn every_lanelet_of_20_m_has_a_place_at_two_fifths_of_it() {
     let places = inner_places(&ring(2));
-    let all: Vec<(i64, u32, f64)> = places
+    let all: Vec<(Id, u32, f64)> = places
         .origins
         .iter()
         .filter_map(|it| {
             if let Place::Inside(inner) = it { Some((inner.id, inner.chain.0, inner.station)) } else { None }
         })
         .collect();
-    assert_eq!(all, [(1, 0, 200.0), (2, 1, 200.0), (3, 0, 700.0), (4, 1, 700.0)]);
+    assert_eq!(all, [(1.into(), 0, 200.0), (2.into(), 1, 200.0), (3.into(), 0, 700.0), (4.into(), 1, 700.0)]);
     assert_eq!(places.destinations, places.origins);
     let short = Road { length: 19.0, is_ring: true, ..Road::default() }.network();
     assert_eq!(inner_places(&short), Places { origins: vec![], destinations: vec![] });

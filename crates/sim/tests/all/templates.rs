@@ -1,6 +1,7 @@
 //! Worlds of a template are those that are made one by one, and what one of them changes concerns no other.
 
 use laneweave_models::Parameter;
+use laneweave_network::Id;
 use laneweave_sim::{Command, Setup, Template, World};
 
 use crate::roads::{drivers, network};
@@ -42,7 +43,7 @@ fn what_a_user_changes_in_a_world_stays_in_it_until_the_world_is_reset() {
     let template = Template::from(world("motorway_2_lanes.osm", 1));
     let untouched = driven(template.spawn(3, 1).unwrap(), 600);
     let mut changed = template.spawn(3, 1).unwrap();
-    let ids: Vec<i64> = changed.network().lanelets.iter().map(|it| it.id).collect();
+    let ids: Vec<Id> = changed.network().lanelets.iter().map(|it| it.id).collect();
     let mut closed = ids.into_iter().map(|lanelet| Command::CloseLanelet { lanelet, is_closed: true });
     assert!(closed.any(|it| changed.command(it).is_ok()), "one of them can be closed");
     let style = drivers::aggressive().name;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use laneweave::sim::Navigator;
 use laneweave_models::Style;
-use laneweave_network::{LaneletIndex, Network};
+use laneweave_network::{Id, LaneletIndex, Network};
 use laneweave_recorded::{Assumed, Evidence, Exposure, Replay};
 use laneweave_recordings::{LaneChange, Matched, extents};
 use laneweave_scenario::style::Population;
@@ -40,9 +40,9 @@ pub struct EvidenceReport {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Forbidden {
     /// The lanelet that vehicles left.
-    pub from_lanelet: i64,
+    pub from_lanelet: Id,
     /// The lanelet that they entered.
-    pub to_lanelet: i64,
+    pub to_lanelet: Id,
     /// How many did.
     pub lane_changes: usize,
 }
@@ -64,7 +64,7 @@ pub struct SeenAt {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SeenOn {
     /// The lanelet.
-    pub lanelet: i64,
+    pub lanelet: Id,
     /// Distance driven [veh·km].
     pub veh_km: f64,
     /// Time [veh·h].
@@ -195,7 +195,7 @@ fn seen_at((density_from_veh_km, seen): (f64, Exposure)) -> SeenAt {
     SeenAt { density_from_veh_km, veh_km: rounded(veh_km), veh_h: rounded(veh_h), lane_changes }
 }
 
-fn seen_on(lanelet: i64, seen: &Exposure) -> SeenOn {
+fn seen_on(lanelet: Id, seen: &Exposure) -> SeenOn {
     let Exposure { veh_km, veh_h, changes: lane_changes } = *seen;
     SeenOn { lanelet, veh_km: rounded(veh_km), veh_h: rounded(veh_h), lane_changes }
 }

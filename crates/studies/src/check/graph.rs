@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use laneweave_maps::{Graph, Map, Node, NodeIndex};
-use laneweave_network::LaneletIndex;
+use laneweave_network::{Id, LaneletIndex};
 use serde::{Serialize, Serializer};
 
 /// The routing graph of a map, which becomes one JSON object keyed by the id of each lanelet.
@@ -12,13 +12,13 @@ pub struct GraphJson<'a>(pub &'a Map);
 /// The links of a lanelet; ids, or null.
 #[derive(Serialize)]
 struct Entry {
-    following: Vec<i64>,
-    previous: Vec<i64>,
-    conflicting: Vec<i64>,
-    left: Option<i64>,
-    right: Option<i64>,
-    adjacent_left: Option<i64>,
-    adjacent_right: Option<i64>,
+    following: Vec<Id>,
+    previous: Vec<Id>,
+    conflicting: Vec<Id>,
+    left: Option<Id>,
+    right: Option<Id>,
+    adjacent_left: Option<Id>,
+    adjacent_right: Option<Id>,
     length_m: f64,
     speed_limit_mps: f64,
     /// The links of the lanelet driven backwards; only for two-way lanelets.
@@ -29,20 +29,20 @@ struct Entry {
 /// The links of a lanelet driven backwards.
 #[derive(Serialize)]
 struct Links {
-    following: Vec<i64>,
-    previous: Vec<i64>,
-    left: Option<i64>,
-    right: Option<i64>,
-    adjacent_left: Option<i64>,
-    adjacent_right: Option<i64>,
+    following: Vec<Id>,
+    previous: Vec<Id>,
+    left: Option<Id>,
+    right: Option<Id>,
+    adjacent_left: Option<Id>,
+    adjacent_right: Option<Id>,
 }
 
 impl GraphJson<'_> {
-    fn id(&self, lanelet: LaneletIndex) -> i64 {
+    fn id(&self, lanelet: LaneletIndex) -> Id {
         self.0.network.lanelets[lanelet.at()].id
     }
 
-    fn node_id(&self, node: NodeIndex) -> i64 {
+    fn node_id(&self, node: NodeIndex) -> Id {
         self.id(self.0.graph.nodes[node.at()].lanelet)
     }
 
@@ -80,8 +80,8 @@ impl GraphJson<'_> {
 }
 
 /// Ids in order, each once.
-fn sorted(ids: impl Iterator<Item = i64>) -> Vec<i64> {
-    let mut ids: Vec<i64> = ids.collect();
+fn sorted(ids: impl Iterator<Item = Id>) -> Vec<Id> {
+    let mut ids: Vec<Id> = ids.collect();
     ids.sort_unstable();
     ids.dedup();
     ids
@@ -90,7 +90,7 @@ fn sorted(ids: impl Iterator<Item = i64>) -> Vec<i64> {
 impl Serialize for GraphJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let lanelets = 0..self.0.network.lanelets.len() as u32;
-        let by_id: BTreeMap<i64, LaneletIndex> =
+        let by_id: BTreeMap<Id, LaneletIndex> =
             lanelets.map(LaneletIndex).map(|it| (self.id(it), it)).collect();
         serializer.collect_map(by_id.into_iter().map(|(id, lanelet)| (id, self.entry(lanelet))))
     }

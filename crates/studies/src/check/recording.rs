@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 
 use laneweave_maps::Problem;
-use laneweave_network::Network;
+use laneweave_network::{Id, Network};
 use laneweave_recordings::{
     CleaningReport, CutIn, LaneChange, Matched, Recording, RecordingError, clean, commonroad, cut_ins,
     lane_changes,
@@ -72,9 +72,9 @@ pub struct ChangeRow {
     /// When its centre crossed the line [s].
     pub time_s: f64,
     /// The lanelet that it left.
-    pub from_lanelet: i64,
+    pub from_lanelet: Id,
     /// The lanelet that it entered.
-    pub to_lanelet: i64,
+    pub to_lanelet: Id,
     /// `left` or `right`.
     pub side: &'static str,
     /// `discretionary`, `route` or `unknown`.

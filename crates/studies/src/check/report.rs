@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 
 use laneweave::sim::{Place, Places};
 use laneweave_maps::{BORDERS, Map, Problem, RuleKind, check};
-use laneweave_network::{ChainIndex, Classes, DrivingSide, Network, Position, Sign};
+use laneweave_network::{ChainIndex, Classes, DrivingSide, Id, Network, Position, Sign};
 use laneweave_scenario::scenario::driven;
 use laneweave_scenario::{Late, Remark, on_late_trips, remarks};
 use laneweave_study::units::{KMH_PER_MPS, METRES_PER_KM};
@@ -53,7 +53,7 @@ pub struct Report {
     /// Traffic lights.
     pub lights: Vec<Lit>,
     /// The last lanelets of lanes that end beside a continuing one.
-    pub lane_drops: Vec<i64>,
+    pub lane_drops: Vec<Id>,
     /// Regulatory elements by kind.
     pub rules: BTreeMap<String, usize>,
     /// Obstacles that stand on or beside the roads.
@@ -70,13 +70,13 @@ pub struct Restricted {
     /// The classes that may use them.
     pub classes: Vec<&'static str>,
     /// Their ids.
-    pub lanelets: Vec<i64>,
+    pub lanelets: Vec<Id>,
 }
 
 impl Restricted {
     /// All of them on a network.
     fn all(network: &Network) -> Vec<Restricted> {
-        let mut by_classes: BTreeMap<Classes, Vec<i64>> = BTreeMap::new();
+        let mut by_classes: BTreeMap<Classes, Vec<Id>> = BTreeMap::new();
         for lanelet in network.lanelets.iter().filter(|it| it.classes != Classes::ALL) {
             by_classes.entry(lanelet.classes).or_default().push(lanelet.id);
         }
@@ -89,7 +89,7 @@ impl Restricted {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Opening {
     /// Its name: the smallest id of its lanelets.
-    pub id: i64,
+    pub id: Id,
     /// Its number of lanes.
     pub lanes: usize,
 }
@@ -98,9 +98,9 @@ pub struct Opening {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lit {
     /// Its name: the smallest id of the regulatory elements that drivers obey together.
-    pub id: i64,
+    pub id: Id,
     /// The lanelets on which they stop.
-    pub lanelets: Vec<i64>,
+    pub lanelets: Vec<Id>,
 }
 
 impl Report {
@@ -208,7 +208,7 @@ impl Report {
             writeln!(out, "closed map             trips start and end on {} lanelets", self.inner_places)?;
         }
         writeln!(out, "lane drops             {}", listed(&self.lane_drops))?;
-        let lights: Vec<i64> = self.lights.iter().map(|it| it.id).collect();
+        let lights: Vec<Id> = self.lights.iter().map(|it| it.id).collect();
         writeln!(out, "traffic lights         {}", listed(&lights))?;
         let rules: Vec<String> = self.rules.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         writeln!(
@@ -247,7 +247,7 @@ fn tenths(number: f64) -> f64 {
 fn opening(place: &Place) -> Option<Opening> {
     match place {
         Place::Gate(gate) => Some(Opening { id: gate.id, lanes: gate.chains.len() }),
-        Place::Inside(_) => None,
+        Place::Inside(_) | Place::Across(_) => None,
     }
 }
 
@@ -286,8 +286,8 @@ fn openings(all: &[Opening]) -> String {
     }
 }
 
-fn listed(ids: &[i64]) -> String {
-    let names: Vec<String> = ids.iter().map(i64::to_string).collect();
+fn listed(ids: &[Id]) -> String {
+    let names: Vec<String> = ids.iter().map(Id::to_string).collect();
     if names.is_empty() { "none".into() } else { format!("{}: {}", names.len(), shortened(&names)) }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use laneweave::network::{ChainIndex, Position};
 use laneweave::study::{Estimate, Estimated, Interval, Sheet, estimates};
-use laneweave::{Event, Fault, Simulation, VehicleId};
+use laneweave::{Event, Fault, Id, Simulation, VehicleId};
 
 use crate::experiments::drive::{each, over};
 use crate::experiments::effort::Effort;
@@ -85,9 +85,9 @@ fn capacity(curves: &[Curve], circulating: f64) -> f64 {
 /// The vehicles that passed before the lanes of the entry, and that entered there [veh/h].
 fn measure(simulation: &mut Simulation, entry: &str) -> [f64; 2] {
     let network = simulation.network();
-    let lanes = network.entrances.iter().filter(|it| it.id.to_string() == entry).flat_map(|it| &it.chains);
+    let lanes = network.entrances.iter().filter(|it| it.id == entry).flat_map(|it| &it.chains);
     let first = |chain: &ChainIndex| network.lanelet_at(Position::new(*chain, 0.0)).0.id;
-    let entry: Vec<i64> = lanes.map(first).collect();
+    let entry: Vec<Id> = lanes.map(first).collect();
     let [warmup, measured] = simulation.run_steps();
     let mut is_of_entry: BTreeMap<VehicleId, bool> = BTreeMap::new();
     let mut counts = [0.0; 2];

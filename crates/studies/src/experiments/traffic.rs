@@ -219,7 +219,7 @@ fn program(phases: Vec<SignalPhase>) -> Signal {
 /// A phase with the lights `green` for so many `seconds`.
 fn phase(green: &[i64], seconds: f64, all_red_s: f64) -> SignalPhase {
     SignalPhase {
-        green: green.to_vec(),
+        green: green.iter().map(|it| (*it).into()).collect(),
         green_s: Some(seconds),
         max_green_s: None,
         min_green_s: None,

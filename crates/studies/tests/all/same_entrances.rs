@@ -1,5 +1,6 @@
 //! `check` names the same entrances and exits that a run uses.
 
+use laneweave_network::Id;
 use std::path::{Path, PathBuf};
 
 use laneweave::Simulation;
@@ -26,11 +27,11 @@ fn a_report_names_the_entrances_and_exits_of_a_run() {
         let Ok(simulation) = simulation else { continue };
         let report = Report::of(&open_map(&map, &MapOptions::default()).expect("it was read before"));
         let [origins, destinations] = simulation.places();
-        let gates = |places: &mut dyn Iterator<Item = &Place>| -> Vec<(i64, usize)> {
+        let gates = |places: &mut dyn Iterator<Item = &Place>| -> Vec<(Id, usize)> {
             let gates = places.filter(|it| matches!(it, Place::Gate(_)));
             gates.map(|it| (it.id(), it.chains().len())).collect()
         };
-        let named = |openings: &[laneweave_studies::check::Opening]| -> Vec<(i64, usize)> {
+        let named = |openings: &[laneweave_studies::check::Opening]| -> Vec<(Id, usize)> {
             openings.iter().map(|it| (it.id, it.lanes)).collect()
         };
         let entrances = gates(&mut origins.iter().copied());

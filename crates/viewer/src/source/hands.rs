@@ -5,7 +5,7 @@ use std::time::Instant;
 use laneweave::network::{LaneletIndex, Network, Point};
 use laneweave::sim::{Command, Target};
 use laneweave::{
-    Class, Control, Fault, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, Simulation,
+    Class, Control, Fault, Id, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side, Simulation,
 };
 use serde::{Deserialize, Serialize};
 
@@ -173,11 +173,6 @@ fn fault(what: impl ToString, remedy: &str) -> Fault {
     Fault::new("by hand", what.to_string(), remedy)
 }
 
-/// An id of the map, from its digits.
-fn id(text: &str) -> Result<i64, Fault> {
-    text.parse().map_err(|_| fault(format!("{text:?} is no id"), "give the digits of an id"))
-}
-
 impl Deed {
     /// What `hand` means for the traffic as it is `now`.
     pub(super) fn of(hand: &Hand, now: &Simulation) -> Result<Deed, Fault> {
@@ -191,7 +186,7 @@ impl Deed {
                 Deed { command: set(*new), back: old.map(set), text }
             }
             Hand::SetDemand { origin, vehicles_per_hour } => {
-                let origin = id(origin)?;
+                let origin = Id::from(origin.as_str());
                 let set = |vehicles_per_hour| Command::SetDemand { origin, vehicles_per_hour };
                 let old = now.demand_at(origin);
                 let demand = format!("{} veh/h", short(*vehicles_per_hour));
@@ -206,7 +201,7 @@ impl Deed {
                 Deed { command: set(*weight), back: old.map(set), text }
             }
             Hand::SetLight { light, shows } => {
-                let light = id(light)?;
+                let light = Id::from(light.as_str());
                 let set = |shows| Command::SetLight { light, shows };
                 let state = match shows {
                     Some(state) => state.name(),
@@ -216,13 +211,13 @@ impl Deed {
                 Deed { command: set(*shows), back: Some(set(now.light_override(light).flatten())), text }
             }
             Hand::SetOffset { light, offset_s } => {
-                let light = id(light)?;
+                let light = Id::from(light.as_str());
                 let set = |offset_s| Command::SetOffset { light, offset_s };
                 let text = [format!("offset of light {light} to "), format!("{} s", short(*offset_s))];
                 Deed { command: set(*offset_s), back: now.offset(light).map(set), text }
             }
             Hand::CloseLanelet { lanelet, is_closed } => {
-                let lanelet = id(lanelet)?;
+                let lanelet = Id::from(lanelet.as_str());
                 let set = |is_closed| Command::CloseLanelet { lanelet, is_closed };
                 let what = if *is_closed { "closed" } else { "open again" };
                 Deed {

@@ -47,8 +47,8 @@ fn a_lanelet_alone_is_neither_entrance_nor_exit() {
                   <tag k='speed_limit' v='100'/></relation></osm>";
     let folder = Folder::new().with("m.osm", &two_roads.replace("</osm>", onward));
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
-    assert_eq!(report["entrances"], json!([{ "id": 101, "lanes": 1 }]));
-    assert_eq!(report["exits"], json!([{ "id": 102, "lanes": 1 }]));
+    assert_eq!(report["entrances"], json!([{ "id": "101", "lanes": 1 }]));
+    assert_eq!(report["exits"], json!([{ "id": "102", "lanes": 1 }]));
     assert_eq!(report["lane_drops"], json!([]));
     let summary = folder.summary("m.osm --duration 100 --record 0");
     assert!(summary["completed"].as_u64().unwrap() > 5);
@@ -64,7 +64,7 @@ fn a_road_may_end_with_a_short_lanelet() {
                   <tag k='speed_limit' v='100'/></relation></osm>";
     let folder = Folder::new().with("m.osm", &map(&lines, &[(101, 1, 2)]).replace("</osm>", onward));
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
-    assert_eq!(report["exits"], json!([{ "id": 102, "lanes": 1 }]));
+    assert_eq!(report["exits"], json!([{ "id": "102", "lanes": 1 }]));
     let summary = folder.summary("m.osm --duration 100 --record 0");
     assert!(summary["completed"].as_u64().unwrap() > 5, "{summary}");
 }

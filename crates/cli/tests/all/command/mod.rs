@@ -65,5 +65,7 @@ mod stop;
 #[cfg(test)]
 mod styles;
 #[cfg(test)]
+mod sumo;
+#[cfg(test)]
 mod sweep;
 mod view;

@@ -31,9 +31,8 @@ fn numbers_with_units_separators_or_out_of_range() {
         let refused = refusal(&folder, &format!("run MAPS/ramps.osm {option}"));
         assert!(refused.contains(message), "{option}: {refused}");
     }
-    assert!(
-        answer(&folder, "routes MAPS/ramps.osm 1 lane").contains("an id is a whole number; laneweave check")
-    );
+    let refused = answer(&folder, "routes MAPS/ramps.osm 1 lane");
+    assert!(refused.contains("this map has no lanelet lane for vehicles; known are 1, 2,"), "{refused}");
     assert!(answer(&folder, "generate motorway --length 5km m.osm").contains("write a plain number"));
     for (line, message) in [
         ("generate motorway --lanes 2.5 m.osm", "'--lanes <N>': write a whole number, such as 3"),

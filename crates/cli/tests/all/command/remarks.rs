@@ -203,7 +203,7 @@ fn trips_with_too_little_road_for_their_lane_changes_are_left_out_and_driven_if_
     let report: Value = serde_json::from_str(&folder.laneweave("check m.osm --json").text()).unwrap();
     assert_eq!(
         report["late_trips"],
-        serde_json::json!([{"from": 52, "to": 50, "classes": ["car", "truck"]}])
+        serde_json::json!([{"from": "52", "to": "50", "classes": ["car", "truck"]}])
     );
     let trips = |run: &str| {
         let run = folder.laneweave(&format!("run {run} --duration 300 --record 0 --format csv"));

@@ -22,7 +22,7 @@ const LANE_CHANGES: &str = "time_s,started_s,duration_s,vehicle,style,class,from
 
 const TRIPS: &str = "vehicle,class,style,origin,destination,from_lanelet,to_lanelet,arrived_s,entered_s,\
     completed_s,insertion_delay_s,duration_s,free_s,delay_s,length_m,stops,standing_s,lane_changes,\
-    route_changes,missed_turns";
+    route_changes,missed_turns,name";
 
 const LANELETS: &str = "lanelet,sumo_lane,length_m,vehicles,flow_veh_h,density_veh_km,speed_mps,standing_s,entered,\
     completed,changes_to_left,changes_to_right,changes_from_left,changes_from_right";
@@ -102,7 +102,7 @@ fn queues_at_the_entrances_are_named_with_what_holds_them() {
     assert!(queues.iter().any(|it| number(&it["held_s"], "red_light") > 10.0));
     assert!(number(&summary, "mean_delay_s") > 0.0 && number(&summary, "mean_stops") > 0.0);
     let text = folder.laneweave(line).text();
-    let first = format!("{} at lanelet {}", waiting[0], queues[0]["lanelet"]);
+    let first = format!("{} at lanelet {}", waiting[0], queues[0]["lanelet"].as_str().expect("an id"));
     assert!(text.contains(&first) && text.contains("a red light"), "{first}: {text}");
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::fmt::Display;
 
-use laneweave_network::Point;
+use laneweave_network::{Id, Point};
 
 use super::osm::{Coordinate, Document, Member, Node, Relation, Span, Way};
 use super::projection::Utm;
@@ -18,21 +18,21 @@ const ORIGIN: (f64, f64) = (49.0, 8.4);
 ///
 /// Nodes have exact metric coordinates (`local_x`, `local_y`, `ele`). For other programs they also have latitude and
 /// longitude, rounded to about a micrometre; these are meaningless more than some hundred kilometres from the origin.
-/// Lanelets and rules keep their ids; everything else gets the ids after those.
+/// Lanelets and rules keep ids that are numbers; everything else gets the ids after those.
 pub fn compose(drawing: &Drawing) -> Document<'static> {
     let document = Document { driving_side: Some(drawing.driving_side), ..Document::default() };
-    let ids = drawing.lanes.iter().map(|it| it.id).chain(drawing.rules.iter().map(|it| it.id));
-    let first_border = 1 + ids.max().unwrap_or(0);
+    let numbers = Numbers::of(drawing);
+    let first_border = numbers.next;
     let first_point = first_border + drawing.borders.len() as i64;
     let next_id = first_point + drawing.points.len() as i64;
-    let mut composer = Composer { document, utm: Utm::around(ORIGIN.0, ORIGIN.1), next_id };
+    let mut composer = Composer { document, utm: Utm::around(ORIGIN.0, ORIGIN.1), numbers, next_id };
     for (point, id) in drawing.points.iter().zip(first_point..) {
         composer.node(id, point);
     }
     for (border, id) in drawing.borders.iter().zip(first_border..) {
         composer.border(id, border, first_point);
     }
-    let mut obeyed: HashMap<i64, Vec<i64>> = HashMap::new();
+    let mut obeyed: HashMap<Id, Vec<Id>> = HashMap::new();
     for rule in &drawing.rules {
         rule.lanelets.iter().for_each(|it| obeyed.entry(*it).or_default().push(rule.id));
     }
@@ -50,10 +50,36 @@ fn rounded(degrees: f64) -> f64 {
     (degrees * 1e11).round() / 1e11
 }
 
+/// The number of each lanelet and rule.
+struct Numbers {
+    of_texts: HashMap<Id, i64>,
+    /// The first number that none of them has.
+    next: i64,
+}
+
+impl Numbers {
+    fn of(drawing: &Drawing) -> Numbers {
+        let ids = || drawing.lanes.iter().map(|it| it.id).chain(drawing.rules.iter().map(|it| it.id));
+        let mut next = 1 + ids().filter_map(Id::number).max().unwrap_or(0);
+        let mut of_texts = HashMap::new();
+        for text in ids().filter(|it| it.number().is_none()) {
+            of_texts.insert(text, next);
+            next += 1;
+        }
+        Numbers { of_texts, next }
+    }
+
+    /// The number of a lanelet or rule; 0 of one that is not there.
+    fn get(&self, id: Id) -> i64 {
+        id.number().or_else(|| self.of_texts.get(&id).copied()).unwrap_or_default()
+    }
+}
+
 /// A document under construction.
 struct Composer {
     document: Document<'static>,
     utm: Option<Utm>,
+    numbers: Numbers,
     /// The id of the next element that has none of its own.
     next_id: i64,
 }
@@ -98,10 +124,11 @@ impl Composer {
         id
     }
 
-    fn lane(&mut self, lane: &Lane, first_border: i64, rules: &[i64]) {
+    fn lane(&mut self, lane: &Lane, first_border: i64, rules: &[Id]) {
         let border = |border: u32| first_border + i64::from(border);
         let sides = [("way", border(lane.left.border), "left"), ("way", border(lane.right.border), "right")];
-        let rules = rules.iter().map(|it| ("relation", *it, "regulatory_element"));
+        let rules: Vec<_> =
+            rules.iter().map(|it| ("relation", self.numbers.get(*it), "regulatory_element")).collect();
         let one_way = if lane.is_two_way { "no" } else { "yes" };
         let (subtype, location) = subtype_and_location(lane.surroundings);
         let participants = participants(lane.classes);
@@ -109,7 +136,7 @@ impl Composer {
             vec![("type", &"lanelet"), ("subtype", &subtype), ("location", &location), ("one_way", &one_way)];
         tags.extend(participants.iter().map(|it| (it.as_str(), &"yes" as &dyn Display)));
         tags.push(("speed_limit", &lane.limit_kmh));
-        self.relation(lane.id, sides.into_iter().chain(rules), &tags);
+        self.relation(self.numbers.get(lane.id), sides.into_iter().chain(rules), &tags);
     }
 
     fn rule(&mut self, rule: &Rule) {
@@ -127,17 +154,17 @@ impl Composer {
         for points in &rule.signs {
             members.push(("way", self.own_way(points, sign), "refers"));
         }
-        let named: [(&[i64], &str); 2] = match &rule.kind {
+        let named: [(&[Id], &str); 2] = match &rule.kind {
             RuleKind::RightOfWay { first, yielding } => [(first, "right_of_way"), (yielding, "yield")],
             RuleKind::AllWayStop { lanelets } => [(lanelets, "yield"), (&[], "")],
             RuleKind::Crosswalk { lanelets } => [(lanelets, "refers"), (&[], "")],
             _ => [(&[], ""); 2],
         };
         for (lanelets, role) in named {
-            members.extend(lanelets.iter().map(|it| ("relation", *it, role)));
+            members.extend(lanelets.iter().map(|it| ("relation", self.numbers.get(*it), role)));
         }
         let tags: [(&str, &dyn Display); 2] = [("type", &"regulatory_element"), ("subtype", &subtype)];
-        self.relation(rule.id, members.into_iter(), &tags);
+        self.relation(self.numbers.get(rule.id), members.into_iter(), &tags);
     }
 
     /// Adds a relation with members of a kind in a role.

@@ -61,7 +61,7 @@ pub(super) fn draw(
                     speed_rules.limit(relation, options.law, &mut contents.limits_of_law, problems);
                 let line = Some(relation.line as usize);
                 let (id, classes, surroundings) =
-                    (relation.id, rules::classes(tags), rules::surroundings(tags));
+                    (relation.id.into(), rules::classes(tags), rules::surroundings(tags));
                 let lane = Lane { id, line, left, right, classes, is_two_way, surroundings, limit_kmh };
                 draft.drawing.lanes.push(lane);
             }

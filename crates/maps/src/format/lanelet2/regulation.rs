@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::Point;
+use laneweave_network::{Id, Point};
 
 use super::lookup::Lookup;
 use super::osm::{Document, Relation};
@@ -20,9 +20,9 @@ pub(super) fn rules(document: &Document, lookup: &Lookup, problems: &mut Vec<Pro
     }
     let (mut rules, mut shared) = (Vec::new(), Sharing::default());
     for relation in document.relations_of_type("regulatory_element").filter(|it| lookup.is_first(it)) {
-        let lanelets = obeying.remove(&relation.id).unwrap_or_default();
+        let lanelets = obeying.remove(&relation.id).unwrap_or_default().into_iter().map(Id::from);
         let reader = Reader { document, lookup, relation, shared: &mut shared, problems };
-        rules.push(reader.rule(lanelets));
+        rules.push(reader.rule(lanelets.collect()));
     }
     let mut missing: Vec<(i64, Vec<i64>)> =
         obeying.into_iter().filter(|(id, _)| lookup.relation(*id).is_none()).collect();
@@ -50,7 +50,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn rule(mut self, lanelets: Vec<i64>) -> Rule {
+    fn rule(mut self, lanelets: Vec<Id>) -> Rule {
         let kind = self.kind();
         let mut stop_lines = self.lines("ref_line");
         let mut signs = self.lines("refers");
@@ -59,7 +59,7 @@ impl Reader<'_> {
             std::mem::swap(&mut stop_lines, &mut signs);
         }
         Rule {
-            id: self.relation.id,
+            id: self.relation.id.into(),
             line: Some(self.relation.line as usize),
             kind,
             lanelets,
@@ -99,11 +99,12 @@ impl Reader<'_> {
     }
 
     /// The ids of the lanelets with `role` that are in the map.
-    fn lanelets(&mut self, role: &'static str) -> Vec<i64> {
+    fn lanelets(&mut self, role: &'static str) -> Vec<Id> {
         let named: Vec<i64> = self.document.members(self.relation, "relation", role).collect();
         named
             .into_iter()
             .filter(|id| self.is_there(*id, self.lookup.relation(*id), "relation", role))
+            .map(Id::from)
             .collect()
     }
 

@@ -1,12 +1,14 @@
-//! Traffic lights: each movement has a light of its own, with its part of the program of its junction.
+//! Traffic lights: each link index of a program is a light, called `PROGRAM:INDEX`, for the movements that have it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use laneweave_network::{Phase, Program};
+use laneweave_network::{Id, Phase, Program};
 
 use super::movement::Movement;
-use super::net::{LightPhase, LightProgram, Net};
+use super::net::Net;
+use super::program::{LightPhase, LightProgram, Programs};
 use super::right_of_way::Rules;
+use crate::map::Map;
 use crate::problem::Problem;
 use crate::rule::RuleKind;
 
@@ -31,37 +33,64 @@ impl Shown {
     }
 }
 
-/// Adds a light for each movement that obeys one. Returns their programs.
+/// Adds the lights. Returns their programs.
 pub(super) fn add(
     net: &Net,
     movements: &[Movement],
     rules: &mut Rules,
     problems: &mut Vec<Problem>,
-) -> BTreeMap<i64, Program> {
-    // Of several programs the last one runs.
-    let programs: HashMap<&str, &LightProgram> = net.programs.iter().map(|it| (it.id.as_str(), it)).collect();
-    let mut found = BTreeMap::new();
+) -> BTreeMap<Id, Program> {
+    let programs = by_name(&net.programs);
+    let mut lights: BTreeMap<(&str, usize), Vec<&Movement>> = BTreeMap::new();
     for movement in movements {
-        let Some((name, index)) = &movement.connection.light else { continue };
-        let light = rules.add_at_start(RuleKind::TrafficLight, movement.lanelet);
-        match programs.get(name.as_str()).map(|it| program(it, *index)) {
-            Some(Some(program)) => drop(found.insert(light, program)),
-            Some(None) => {
-                let what = format!(
-                    "the program of its light {name} has no sound state {index}, so it gets another one"
-                );
-                problems.push(
-                    movement
-                        .problem(&what, "give each phase a duration and a state of the letters G, g, y, r"),
-                );
-            }
-            None => {
-                let what = format!("its light {name} has no program, so it gets one");
-                problems.push(movement.problem(&what, "add a tlLogic with this id"));
-            }
+        if let Some((name, index)) = &movement.connection.light {
+            lights.entry((name, *index)).or_default().push(movement);
         }
     }
+    let mut found = BTreeMap::new();
+    for ((name, index), movements) in lights {
+        let id = Id::from(format!("{name}:{index}").as_str());
+        rules.add_light(id, &movements.iter().map(|it| it.lanelet).collect::<Vec<_>>());
+        let (what, remedy) = match programs.get(name).map(|it| program(it, index)) {
+            Some(Some(program)) => {
+                found.insert(id, program);
+                continue;
+            }
+            Some(None) => (
+                format!("the program of its light {name} has no sound state {index}, so it gets another one"),
+                "give each phase a duration and a state of the letters G, g, y, r",
+            ),
+            None => {
+                (format!("its light {name} has no program, so it gets one"), "add a tlLogic with this id")
+            }
+        };
+        problems.push(movements[0].problem(&what, remedy));
+    }
     found
+}
+
+/// The programs that run, by their names.
+fn by_name(programs: &Programs) -> HashMap<&str, &LightProgram> {
+    programs.all.iter().map(|it| (it.id.as_str(), it)).collect()
+}
+
+/// Replaces the programs of lights of `map` that `programs` names. Returns the names of programs that no light has, or
+/// that are not sound.
+pub(super) fn replace(map: &mut Map, programs: &Programs) -> Vec<String> {
+    let named = by_name(programs);
+    let mut wrong: BTreeSet<&str> = named.keys().copied().collect();
+    let lights = map.rules.iter().filter(|it| it.kind == RuleKind::TrafficLight);
+    for id in lights.map(|it| it.id) {
+        let text = id.to_string();
+        let Some((name, index)) = text.rsplit_once(':') else { continue };
+        let Some((name, whole)) = named.get_key_value(name) else { continue };
+        let part = index.parse().ok().and_then(|index| program(whole, index));
+        if let Some(part) = part {
+            wrong.remove(name);
+            map.programs.insert(id, part);
+        }
+    }
+    wrong.into_iter().map(str::to_owned).collect()
 }
 
 /// The part of a program for one movement.

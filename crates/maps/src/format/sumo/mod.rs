@@ -1,8 +1,9 @@
 //! Road networks of SUMO (`.net.xml`), after the format's description at <https://sumo.dlr.de/docs/Networks> as of
 //! version 1.20; what stands in brackets is ours.
 //!
-//! A lane of an edge becomes a lanelet, and so does each movement: a connection with all of its internal lanes. What
-//! follows what is told by the connections, not by shapes. Where the format leaves something open, these rules apply:
+//! A lane of an edge becomes a lanelet, and so does each movement: a connection with all of its internal lanes, which
+//! has the id of the first of them. What follows what is told by the connections, not by shapes. Where the format
+//! leaves something open, these rules apply:
 //!
 //! * The shape of a lane is its centre line; it is 3.2 m wide unless the net says otherwise. A movement is as wide as
 //!   the lanes that it joins.
@@ -18,6 +19,7 @@ mod line;
 mod movement;
 mod net;
 mod permission;
+mod program;
 mod right_of_way;
 
 use std::collections::HashMap;
@@ -32,7 +34,9 @@ use crate::map::Map;
 use crate::options::ReadOptions;
 use crate::problem::Problem;
 use crate::size::Size;
+use crate::xml::XmlError;
 use net::{Function, LaneElement, Net};
+use program::Programs;
 use right_of_way::Rules;
 
 /// Limits up to this are those of streets in towns [km/h].
@@ -75,6 +79,25 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     Ok(Map { network, graph, rules, programs, contents, problems, origin: None })
 }
 
+/// Replaces programs of lights of `map`, which is a net, by those of an additional file. What has no light becomes a
+/// problem of the map.
+///
+/// # Errors
+/// If the file is no XML.
+pub fn add_programs(map: &mut Map, additional: &[u8]) -> Result<(), XmlError> {
+    let programs = Programs::of_additional(additional)?;
+    for name in light::replace(map, &programs) {
+        map.problems.push(Problem {
+            element: format!("tlLogic {name}"),
+            line: None,
+            what: "no light of the net has it, or its phases have no sound states, so it is not used".into(),
+            remedy: "name a junction of the net, and give each phase a duration and a state for each link"
+                .into(),
+        });
+    }
+    Ok(())
+}
+
 /// For each lane of a net the lanelet that it became.
 type Places = Vec<Option<LaneletIndex>>;
 
@@ -89,8 +112,7 @@ fn lanes(net: &Net, lanelets: &mut Vec<Lanelet>, problems: &mut Vec<Problem>) ->
         match centre_of(lane).map(|it| (line::borders(&it, [lane.width; 2]), it)) {
             Ok(([left, right], centre)) => {
                 lanes[number] = Some(LaneletIndex(lanelets.len() as u32));
-                let id = lanelets.len() as i64 + 1;
-                let mut lanelet = Lanelet::alone(id, [left, right, centre], lane.speed);
+                let mut lanelet = Lanelet::alone(lane.id.as_str(), [left, right, centre], lane.speed);
                 lanelet.classes = lane.classes;
                 lanelet.is_in_town = lane.speed <= FASTEST_IN_TOWN / KMH_PER_MPS && !edge.is_motorway();
                 lanelets.push(lanelet);

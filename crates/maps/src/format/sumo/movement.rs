@@ -1,9 +1,9 @@
 //! Movements: ways over a junction, from a lane of one edge to a lane of another. Each is a connection with all
 //! internal lanes on its way.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use laneweave_network::{Classes, Lanelet, LaneletIndex, Point, Polyline};
+use laneweave_network::{Classes, Id, Lanelet, LaneletIndex, Point, Polyline};
 
 use super::net::{Connection, Function, Net};
 use super::{ByName, Places, line, link, side_of};
@@ -41,6 +41,7 @@ pub(super) fn add<'a>(
     problems: &mut Vec<Problem>,
 ) -> Vec<Movement<'a>> {
     let ways = Ways::of(net);
+    let mut ids: HashSet<Id> = lanelets.iter().map(|it| it.id).collect();
     let mut movements: Vec<Movement<'a>> = Vec::new();
     let mut leading = vec![0; lanelets.len()];
     for connection in &net.connections {
@@ -69,6 +70,11 @@ pub(super) fn add<'a>(
             problems.push(problem(connection, &what, "delete connections that are there twice"));
             continue;
         }
+        let Some(id) = names(connection, &pieces, net).into_iter().find(|it| ids.insert(*it)) else {
+            let what = format!("it is there twice{LEFT_OUT}");
+            problems.push(problem(connection, &what, "delete one of them"));
+            continue;
+        };
         leading[after.at()] += 1;
         let ends = [before, after].map(|it| &lanelets[it.at()]);
         let Some((centre, joint)) = centre(net, &pieces, ends) else {
@@ -80,7 +86,7 @@ pub(super) fn add<'a>(
         let speeds = pieces.iter().map(|it| net.lanes[*it].speed).filter(|it| *it > 0.0);
         let speed = speeds.fold(ends[0].speed_limit.min(ends[1].speed_limit), f64::min);
         let lanelet = LaneletIndex(lanelets.len() as u32);
-        let mut made = Lanelet::alone(lanelets.len() as i64 + 1, [left, right, centre], speed);
+        let mut made = Lanelet::alone(id, [left, right, centre], speed);
         made.classes = classes;
         made.is_in_town = lanelets[before.at()].is_in_town;
         made.following = vec![after];
@@ -109,11 +115,20 @@ fn stand_beside(net: &Net, movements: &[Movement], lanelets: &mut [Lanelet]) {
     }
 }
 
+/// What a movement may be called: like its first internal lane, or like the lanes that it joins.
+fn names(connection: &Connection, pieces: &[usize], net: &Net) -> Vec<Id> {
+    let first = pieces.first().map(|it| Id::from(net.lanes[*it].id.as_str()));
+    first.into_iter().chain([Id::from(name(connection).as_str())]).collect()
+}
+
+fn name(Connection { from, from_lane, to, to_lane, .. }: &Connection) -> String {
+    format!("{from}_{from_lane} to {to}_{to_lane}")
+}
+
 fn problem(connection: &Connection, what: &str, remedy: &str) -> Problem {
-    let Connection { from, from_lane, to, to_lane, line, .. } = connection;
     Problem {
-        element: format!("connection {from}_{from_lane} to {to}_{to_lane}"),
-        line: Some(*line),
+        element: format!("connection {}", name(connection)),
+        line: Some(connection.line),
         what: what.into(),
         remedy: remedy.into(),
     }

@@ -1,10 +1,11 @@
 //! A net as plain data: edges with their lanes, connections, and junctions, with their lines.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use laneweave_network::{Classes, Point};
 
 use super::permission;
+use super::program::Programs;
 use crate::problem::Problem;
 use crate::shape::MAXIMUM_COORDINATE;
 use crate::unused::{Meaning, Unused};
@@ -22,11 +23,13 @@ pub(super) struct Net {
     pub(super) lanes: Vec<LaneElement>,
     pub(super) connections: Vec<Connection>,
     pub(super) junctions: Vec<Junction>,
-    pub(super) programs: Vec<LightProgram>,
+    pub(super) programs: Programs,
     /// How many elements of each kind it has.
     pub(super) counts: BTreeMap<String, usize>,
     /// What traffic does not use.
     pub(super) unused: Unused,
+    /// The ids of all lanes.
+    lane_ids: HashSet<String>,
 }
 
 /// What an edge is for.
@@ -97,22 +100,6 @@ pub(super) struct Connection {
     pub(super) light: Option<(String, usize)>,
 }
 
-/// A program of lights (`tlLogic`).
-pub(super) struct LightProgram {
-    pub(super) id: String,
-    /// When its first phase begins [s].
-    pub(super) offset: f64,
-    pub(super) phases: Vec<LightPhase>,
-}
-
-/// A phase of a program.
-pub(super) struct LightPhase {
-    /// [s].
-    pub(super) duration: f64,
-    /// What each light shows, a character each.
-    pub(super) state: String,
-}
-
 /// A junction.
 pub(super) struct Junction {
     pub(super) kind: String,
@@ -163,7 +150,7 @@ impl Visitor for Reader<'_> {
             "junction/request" => self.request(element)?,
             "location" | "type" | "roundabout" => {}
             "tlLogic" => self.program(element)?,
-            "tlLogic/phase" => self.phase(element)?,
+            "tlLogic/phase" => self.net.programs.add_phase(element)?,
             _ if path.ends_with("/param") || path == "param" => {}
             "edge/neigh" | "edge/lane/neigh" => {
                 let meaning = ("nobody overtakes on the lanes of others", "leave it so");
@@ -221,10 +208,19 @@ impl Reader<'_> {
         let [id, allow, disallow] = element.values(["id", "allow", "disallow"])?;
         let [speed, width, shape] = element.values(["speed", "width", "shape"])?;
         let [left, right] = element.values(["changeLeft", "changeRight"])?;
+        let id = id.unwrap_or_default().into_owned();
+        if id.is_empty() || !self.net.lane_ids.insert(id.clone()) {
+            self.refuse(
+                element,
+                &format!("its id {id:?} is empty or there twice"),
+                "give it an id of its own",
+            );
+            return Ok(());
+        }
         // A lane always stands in an edge: that is its path.
         let edge = self.net.edges.len().saturating_sub(1);
         let lane = LaneElement {
-            id: id.unwrap_or_default().into_owned(),
+            id,
             line: element.line,
             edge,
             speed: speed.map_or(f64::NAN, |it| number(&it)),
@@ -273,8 +269,9 @@ impl Reader<'_> {
     }
 
     fn program(&mut self, element: &Element) -> Result<(), XmlError> {
-        let [id, kind, offset] = element.values(["id", "type", "offset"])?;
-        let (id, kind) = (id.unwrap_or_default().into_owned(), kind.unwrap_or_default());
+        self.net.programs.add(element)?;
+        let [id, kind] = element.values(["id", "type"])?;
+        let (id, kind) = (id.unwrap_or_default(), kind.unwrap_or_default());
         self.count(&format!("tlLogic {kind}"));
         if kind != "static" {
             self.problems.push(Problem {
@@ -283,17 +280,6 @@ impl Reader<'_> {
                 what: format!("its type is {kind:?}, but its phases have their durations, whoever comes"),
                 remedy: "leave it so, or give it the type static".into(),
             });
-        }
-        let offset = offset.map_or(0.0, |it| number(&it));
-        self.net.programs.push(LightProgram { id, offset, phases: Vec::new() });
-        Ok(())
-    }
-
-    fn phase(&mut self, element: &Element) -> Result<(), XmlError> {
-        let [duration, state] = element.values(["duration", "state"])?;
-        if let Some(program) = self.net.programs.last_mut() {
-            let duration = duration.map_or(f64::NAN, |it| number(&it));
-            program.phases.push(LightPhase { duration, state: state.unwrap_or_default().into_owned() });
         }
         Ok(())
     }

@@ -8,6 +8,11 @@ fn listed(list: &str) -> Classes {
     list.split_whitespace().map(class).fold(Classes::NONE, Classes::and)
 }
 
+/// Where anybody may drive, emergency vehicles may.
+fn with_emergency(classes: Classes) -> Classes {
+    if classes.is_empty() { classes } else { classes.and(Classes::from_iter([Class::Emergency])) }
+}
+
 fn class(name: &str) -> Classes {
     let class = match name {
         "all" => return Classes::ALL,
@@ -26,8 +31,8 @@ fn class(name: &str) -> Classes {
 /// is for everybody.
 pub(super) fn classes(allow: Option<&str>, disallow: Option<&str>) -> Classes {
     match (allow.filter(|it| !it.trim().is_empty()), disallow) {
-        (Some(allow), _) => listed(allow),
-        (None, Some(disallow)) => Classes::ALL.without(listed(disallow)),
+        (Some(allow), _) => with_emergency(listed(allow)),
+        (None, Some(disallow)) => with_emergency(Classes::ALL.without(listed(disallow))),
         (None, None) => Classes::ALL,
     }
 }
@@ -40,7 +45,7 @@ mod tests {
     fn lanes_are_for_whom_the_net_lets_in() {
         let names = |allow, disallow| classes(allow, disallow).names();
         assert_eq!(classes(None, None), Classes::ALL);
-        assert_eq!(names(Some("bus taxi bicycle"), None), "bus, taxi");
+        assert_eq!(names(Some("bus taxi bicycle"), None), "bus, taxi, emergency");
         assert_eq!(names(None, Some("passenger truck pedestrian tram")), "bus, motorcycle, taxi, emergency");
         assert_eq!(names(Some("pedestrian"), None), "");
         assert_eq!(names(None, Some("all")), "");

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use laneweave_network::{Lanelet, LaneletIndex, Point};
+use laneweave_network::{Id, Lanelet, LaneletIndex, Point};
 
 use super::movement::Movement;
 use super::net::{Junction, Net};
@@ -37,13 +37,19 @@ impl Rules<'_> {
         Rules { all: Vec::new(), lanelets }
     }
 
-    /// Adds a rule for the drivers of a movement, who obey it where it begins. Returns its id.
-    pub(super) fn add_at_start(&mut self, kind: RuleKind, movement: LaneletIndex) -> i64 {
-        let line = self.line(movement, 0.0);
-        let signs = if kind == RuleKind::TrafficLight { vec![line.clone()] } else { Vec::new() };
-        let id = self.add(kind, vec![self.id(movement)], vec![line]);
-        self.all.last_mut().into_iter().for_each(|it| it.signs.clone_from(&signs));
-        id
+    /// Adds a light for the drivers of some movements, who obey it where these begin.
+    pub(super) fn add_light(&mut self, id: Id, movements: &[LaneletIndex]) {
+        let lines: Vec<Vec<Point>> = movements.iter().map(|it| self.line(*it, 0.0)).collect();
+        let lanelets = movements.iter().map(|it| self.id(*it)).collect();
+        let signs = lines.clone();
+        self.all.push(Rule {
+            id,
+            line: None,
+            kind: RuleKind::TrafficLight,
+            lanelets,
+            stop_lines: lines,
+            signs,
+        });
     }
 
     /// Stop signs, and all-way stops.
@@ -53,7 +59,8 @@ impl Rules<'_> {
             all.copied().collect::<Vec<&Movement>>()
         };
         for movement in with('s') {
-            self.add_at_start(RuleKind::StopSign, movement.lanelet);
+            let line = self.line(movement.lanelet, 0.0);
+            self.add(RuleKind::StopSign, vec![self.id(movement.lanelet)], vec![line]);
         }
         let all_way = with('w');
         if !all_way.is_empty() {
@@ -68,7 +75,7 @@ impl Rules<'_> {
         for request in &junction.requests {
             let Some(Some(yielding)) = movements.get(request.index) else { continue };
             let others = request.response.iter().zip(movements).filter(|(gives_way, _)| **gives_way);
-            let first: Vec<i64> = others.filter_map(|(_, it)| Some(self.id(it.as_ref()?.lanelet))).collect();
+            let first: Vec<Id> = others.filter_map(|(_, it)| Some(self.id(it.as_ref()?.lanelet))).collect();
             if first.is_empty() {
                 continue;
             }
@@ -79,7 +86,7 @@ impl Rules<'_> {
         }
     }
 
-    fn id(&self, lanelet: LaneletIndex) -> i64 {
+    fn id(&self, lanelet: LaneletIndex) -> Id {
         self.lanelets[lanelet.at()].id
     }
 
@@ -90,9 +97,8 @@ impl Rules<'_> {
         [HALF_WIDTH, -HALF_WIDTH].map(|it| centre.beside(along, it)).to_vec()
     }
 
-    fn add(&mut self, kind: RuleKind, lanelets: Vec<i64>, stop_lines: Vec<Vec<Point>>) -> i64 {
-        let id = self.all.len() as i64 + 1;
+    fn add(&mut self, kind: RuleKind, lanelets: Vec<Id>, stop_lines: Vec<Vec<Point>>) {
+        let id = Id::from(self.all.len() as i64 + 1);
         self.all.push(Rule { id, line: None, kind, lanelets, stop_lines, signs: Vec::new() });
-        id
     }
 }

@@ -1,7 +1,7 @@
 //! The contents of a map, and its problems.
 
 use laneweave_maps::{Map, MapError, ReadOptions, commonroad};
-use laneweave_network::{DrivingSide, Lanelet, LaneletIndex};
+use laneweave_network::{DrivingSide, Id, Lanelet, LaneletIndex};
 
 use crate::commonroad::{problems, read, short, two_lanes};
 
@@ -204,7 +204,7 @@ fn shuffled_lines_give_the_same_roads() {
             .lanelets
             .iter()
             .map(|it| {
-                let following: Vec<i64> = it.following.iter().map(|it| id(*it)).collect();
+                let following: Vec<Id> = it.following.iter().map(|it| id(*it)).collect();
                 (it.id, following, it.left.map(id), it.right.map(id), it.speed_limit.to_bits())
             })
             .collect();

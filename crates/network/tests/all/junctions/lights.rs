@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use laneweave_network::{
-    DrivingSide, LaneletIndex, LightIndex, LightState, LightTraffic, Network, Phase, Point, Polyline,
+    DrivingSide, Id, LaneletIndex, LightIndex, LightState, LightTraffic, Network, Phase, Point, Polyline,
     Position, Program, Regulations, SignalPlan, StopKind, StopRule, Turn,
 };
 
@@ -56,7 +56,7 @@ fn four_arms(movements: Movements) -> Network {
         }
     }
     let light = |arm: u32| StopRule {
-        id: 100 + i64::from(arm),
+        id: (100 + i64::from(arm)).into(),
         kind: StopKind::Light,
         lanelets: vec![LaneletIndex(arm)],
         lines: Vec::new(),
@@ -68,9 +68,9 @@ fn four_arms(movements: Movements) -> Network {
 /// The plans for flows [veh/h] on the lanes from the west, south, east and north, from which everybody goes straight
 /// on. A lane bears 1,800 veh/h.
 fn plans(network: &Network, flows: [f64; 4]) -> Vec<SignalPlan> {
-    let flow = |at: Position| match network.lanelet_at(at).0.id {
-        lane @ 0..4 => flows[lane as usize] / 3600.0,
-        way => flows[way.max(8) as usize - 8] / 3600.0,
+    let flow = |at: Position| match network.lanelet_at(at).0.id.number() {
+        Some(lane @ 0..4) => flows[lane as usize] / 3600.0,
+        way => flows[way.map_or(0, |it| it.max(8) as usize - 8)] / 3600.0,
     };
     network.lights().programs(&LightTraffic { flow: &flow, saturation: &|_| 0.5 })
 }
@@ -102,7 +102,7 @@ fn all_red(one: &Program, other: &Program) -> f64 {
 fn opposing_approaches_are_green_together_and_turns_across_them_are_permitted() {
     for movements in [Movements::All, Movements::Straight] {
         let junctions = four_arms(movements).junctions;
-        let ids: Vec<i64> = junctions.lights.iter().map(|it| it.id).collect();
+        let ids: Vec<Id> = junctions.lights.iter().map(|it| it.id).collect();
         assert_eq!(ids, [100, 101, 102, 103]);
         let [plan] = &junctions.made[..] else { panic!("{:?}", junctions.made) };
         assert_eq!(phases(plan), ["west east", "south north"]);
@@ -181,7 +181,7 @@ fn street() -> Network {
         lanes = lanes.with(straight((x, -10.0), (x, 200.0)), &[]);
     }
     let light = |lane: u32| StopRule {
-        id: 100 + i64::from(lane),
+        id: (100 + i64::from(lane)).into(),
         kind: StopKind::Light,
         lanelets: vec![LaneletIndex(lane)],
         lines: Vec::new(),
@@ -194,8 +194,8 @@ fn street() -> Network {
 fn along_a_street_a_platoon_meets_green_at_the_next_light() {
     let network = street();
     for along in [200.0, 500.0, 800.0] {
-        let flow = |at: Position| match network.lanelet_at(at).0.id {
-            0 | 1 | 4 | 5 => along / 3600.0,
+        let flow = |at: Position| match network.lanelet_at(at).0.id.number() {
+            Some(0 | 1 | 4 | 5) => along / 3600.0,
             _ => 200.0 / 3600.0,
         };
         let plans = network.lights().programs(&LightTraffic { flow: &flow, saturation: &|_| 0.5 });
@@ -221,8 +221,12 @@ fn along_a_street_a_platoon_meets_green_at_the_next_light() {
 #[test]
 fn a_light_on_its_own_stays_green() {
     let lanes = Lanes::default().with(straight((0.0, 0.0), (100.0, 0.0)), &[]);
-    let stops =
-        vec![StopRule { id: 7, kind: StopKind::Light, lanelets: vec![LaneletIndex(0)], lines: Vec::new() }];
+    let stops = vec![StopRule {
+        id: 7.into(),
+        kind: StopKind::Light,
+        lanelets: vec![LaneletIndex(0)],
+        lines: Vec::new(),
+    }];
     let junctions = lanes.junctions(&Regulations { stops, ..Regulations::default() });
     assert_eq!(junctions.lights[0].program, Program::ALWAYS_GREEN);
     assert!(moments().all(|at| junctions.lights[0].program.state(at) == LightState::Green));

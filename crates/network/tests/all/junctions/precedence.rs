@@ -13,7 +13,7 @@ fn lanelets(numbers: &[u32]) -> Vec<LaneletIndex> {
 }
 
 fn stop(kind: StopKind, obeying: &[u32]) -> StopRule {
-    StopRule { id: 1, kind, lanelets: lanelets(obeying), lines: Vec::new() }
+    StopRule { id: 1.into(), kind, lanelets: lanelets(obeying), lines: Vec::new() }
 }
 
 fn stops(rules: &[StopRule]) -> Regulations {

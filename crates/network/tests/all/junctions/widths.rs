@@ -1,8 +1,8 @@
 //! Lanes between drawn borders: where they are wide enough to drive on, and whether narrow ones conflict.
 
 use laneweave_network::{
-    ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations, Side,
-    Touch, ZoneKind,
+    ChainIndex, DrivingSide, Id, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations,
+    Side, Touch, ZoneKind,
 };
 
 /// Speed limit of all lanes [m/s].
@@ -29,7 +29,7 @@ pub(crate) fn network(lanelets: Vec<Lanelet>) -> Network {
 }
 
 /// The names of the entrances.
-pub(crate) fn entrances(network: &Network) -> Vec<i64> {
+pub(crate) fn entrances(network: &Network) -> Vec<Id> {
     network.entrances.iter().map(|it| it.id).collect()
 }
 

@@ -33,7 +33,7 @@ impl Fcd {
         let Seen { motion, class, .. } = seen;
         let Body { lanelet, along, front, pose, .. } = body;
         let Fcd { file, has_heights } = self;
-        file.raw("        <vehicle id=\"").integer(motion.id);
+        file.raw("        <vehicle id=\"").vehicle(names, motion.id);
         file.raw("\" x=\"").number(front.x);
         file.raw("\" y=\"").number(front.y);
         if *has_heights {
@@ -43,7 +43,7 @@ impl Fcd {
         file.raw("\" type=\"").raw(class.body().name);
         file.raw("\" speed=\"").number(motion.speed);
         file.raw("\" pos=\"").number(along.max(0.0));
-        file.raw("\" lane=\"").raw(names.lanes.name(*lanelet));
+        file.raw("\" lane=\"").raw(names.lanes.xml(*lanelet));
         file.raw("\" slope=\"").number(if *has_heights { slope(front, &pose.at) } else { 0.0 });
         file.raw("\" acceleration=\"").number(f64::from(motion.acceleration));
         file.end("\"/>\n")

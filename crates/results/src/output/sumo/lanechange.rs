@@ -26,15 +26,15 @@ impl LaneChangeOutput {
     }
 
     fn change(&mut self, change: &LaneChange, names: &Names) -> Result<(), Fault> {
-        let (from, _, along) = names.lanelet(change.from);
-        let (to, ..) = names.lanelet(change.to);
+        let (from, along) = names.lanelet(change.from);
+        let (to, _) = names.lanelet(change.to);
         let dir = if change.side == self.overtaking { 1 } else { -1 };
         let file = &mut self.file;
-        file.raw("    <change id=\"").integer(change.vehicle);
+        file.raw("    <change id=\"").vehicle(names, change.vehicle);
         file.raw("\" type=\"").raw(change.class.body().name);
         file.raw("\" time=\"").time(change.time);
-        file.raw("\" from=\"").raw(names.lanes.name(from));
-        file.raw("\" to=\"").raw(names.lanes.name(to));
+        file.raw("\" from=\"").raw(names.lanes.xml(from));
+        file.raw("\" to=\"").raw(names.lanes.xml(to));
         file.raw("\" dir=\"").integer(dir);
         file.raw("\" speed=\"").number(change.speed);
         file.raw("\" pos=\"").number(along);

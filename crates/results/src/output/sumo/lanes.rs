@@ -1,10 +1,11 @@
-//! Lanelets as lanes of SUMO: `EDGE_INDEX`. An edge is a group of lanelets side by side, named by the smallest of
-//! their ids; lanes count from 0 on the slow side.
+//! Lanelets as lanes of SUMO: `EDGE_INDEX`. Lanelets of a SUMO net have the ids of its lanes. Elsewhere an edge is a
+//! group of lanelets side by side, named by the smallest of their ids; lanes count from 0 on the slow side.
 
+use super::xml::attribute;
 use laneweave_network::{LaneletIndex, Network, Sections, Side};
 
-/// The lanes of all lanelets.
-pub(in crate::output) struct Lanes(Vec<String>);
+/// The names of the lanes of all lanelets: as text, and as XML.
+pub(in crate::output) struct Lanes([Vec<String>; 2]);
 
 impl Lanes {
     pub(in crate::output) fn of(network: &Network) -> Lanes {
@@ -17,15 +18,25 @@ impl Lanes {
             // Where the map contradicts itself, the ids decide.
             lanes.sort_by_key(|it| (lanes_beyond(network, *it, slow, section.lanelets.len()), id(it)));
             for (index, lanelet) in lanes.iter().enumerate() {
-                names[lanelet.at()] = format!("{edge}_{index}");
+                let own = id(lanelet);
+                names[lanelet.at()] = match own.number() {
+                    Some(_) => format!("{edge}_{index}"),
+                    None => own.to_string(),
+                };
             }
         }
-        Lanes(names)
+        let in_xml = names.iter().map(|it| attribute(it)).collect();
+        Lanes([names, in_xml])
     }
 
     /// The lane of a lanelet.
     pub(in crate::output) fn name(&self, lanelet: LaneletIndex) -> &str {
-        &self.0[lanelet.at()]
+        &self.0[0][lanelet.at()]
+    }
+
+    /// The lane of a lanelet, as the value of an attribute.
+    pub(in crate::output) fn xml(&self, lanelet: LaneletIndex) -> &str {
+        &self.0[1][lanelet.at()]
     }
 }
 

@@ -26,17 +26,17 @@ impl TripInfo {
 
     fn trip(&mut self, trip: &Trip, end: &End, names: &Names) -> Result<(), Fault> {
         let Trip { record, way, .. } = trip;
-        let (from, _, from_pos) = names.lanelet(record.from);
-        let (to, _, to_pos) = names.lanelet(end.at);
+        let (from, from_pos) = names.lanelet(record.from);
+        let (to, to_pos) = names.lanelet(end.at);
         let file = &mut self.file;
-        file.raw("    <tripinfo id=\"").integer(record.vehicle);
+        file.raw("    <tripinfo id=\"").vehicle(names, record.vehicle);
         file.raw("\" depart=\"").time(record.entered);
-        file.raw("\" departLane=\"").raw(names.lanes.name(from));
+        file.raw("\" departLane=\"").raw(names.lanes.xml(from));
         file.raw("\" departPos=\"").number(from_pos);
         file.raw("\" departSpeed=\"").number(record.speed);
         file.raw("\" departDelay=\"").time(trip.waiting());
         file.raw("\" arrival=\"").time(end.time);
-        file.raw("\" arrivalLane=\"").raw(names.lanes.name(to));
+        file.raw("\" arrivalLane=\"").raw(names.lanes.xml(to));
         file.raw("\" arrivalPos=\"").number(to_pos);
         file.raw("\" arrivalSpeed=\"").number(end.speed);
         file.raw("\" duration=\"").time(end.duration);

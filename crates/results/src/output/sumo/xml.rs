@@ -5,9 +5,11 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use laneweave_scenario::Fault;
-use laneweave_study::PartialFile;
+use laneweave_sim::VehicleId;
+use laneweave_study::{PartialFile, escaped};
 
 use crate::outcome::Provenance;
+use crate::output::names::Names;
 
 /// Text is collected up to this length before it is written [bytes].
 const BUFFER: usize = 1 << 18;
@@ -48,6 +50,14 @@ impl XmlFile {
     pub(super) fn raw(&mut self, markup: &str) -> &mut XmlFile {
         self.text.extend_from_slice(markup.as_bytes());
         self
+    }
+
+    /// The name of a vehicle, or its id.
+    pub(super) fn vehicle(&mut self, names: &Names, id: VehicleId) -> &mut XmlFile {
+        match names.vehicle(id) {
+            Some(name) => self.raw(&attribute(name)),
+            None => self.integer(id),
+        }
     }
 
     pub(super) fn integer(&mut self, value: impl itoa::Integer) -> &mut XmlFile {
@@ -124,6 +134,11 @@ impl XmlFile {
 }
 
 /// The text before the first element.
+/// Text as the value of an attribute.
+pub(in crate::output) fn attribute(text: &str) -> String {
+    escaped(text).replace('"', "&quot;")
+}
+
 fn header(root: &str, provenance: &Provenance) -> String {
     let Provenance { version, command, seed, scenario, .. } = provenance;
     let comment = format!(

@@ -1,5 +1,6 @@
 //! Where vehicles brake hard, and what for.
 
+use laneweave_network::Id;
 use std::collections::BTreeMap;
 
 use laneweave_sim::{BrakingCause, DrivingEventKind, Event, World};
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct HardBrakings {
     /// By lanelet, the counts in the order of [`BrakingCause::ALL`].
-    places: BTreeMap<i64, [u64; BrakingCause::ALL.len()]>,
+    places: BTreeMap<Id, [u64; BrakingCause::ALL.len()]>,
 }
 
 impl HardBrakings {
@@ -27,7 +28,7 @@ impl HardBrakings {
     }
 
     /// The lanelets with most of them, at most `most`, each with its counts by cause; of equal ones the lower id first.
-    pub(crate) fn worst(&self, most: usize) -> Vec<(i64, [u64; BrakingCause::ALL.len()])> {
+    pub(crate) fn worst(&self, most: usize) -> Vec<(Id, [u64; BrakingCause::ALL.len()])> {
         let mut places: Vec<_> = self.places.iter().map(|(lanelet, counts)| (*lanelet, *counts)).collect();
         places.sort_by_key(|(lanelet, counts)| (std::cmp::Reverse(counts.iter().sum::<u64>()), *lanelet));
         places.truncate(most);

@@ -1,6 +1,6 @@
 //! Where something happened on the map: lane changes, incidents, and vehicles that waited to enter.
 
-use laneweave_network::{Network, Point, Position};
+use laneweave_network::{Id, Network, Point, Position};
 use laneweave_sim::{Event, IncidentKind, LaneChangeKind, World, entry_queue_lengths};
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ pub(crate) struct Places {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Spotted {
     /// The id of the lanelet.
-    pub(crate) lanelet: i64,
+    pub(crate) lanelet: Id,
     /// East and north [m].
     pub(crate) at: [f64; 2],
     /// When [s].
@@ -37,7 +37,7 @@ pub(crate) struct Spotted {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EntranceLane {
     /// The id of the lanelet.
-    pub(crate) lanelet: i64,
+    pub(crate) lanelet: Id,
     /// East and north [m].
     pub(crate) at: [f64; 2],
     /// Maximum of vehicles that waited there to enter.
@@ -169,9 +169,10 @@ mod tests {
     #[test]
     fn of_too_many_places_every_second_one_is_kept_and_fewer_follow() {
         let mut places = Sparse::default();
-        let at = |number: usize| Spotted { lanelet: number as i64, at: [0.0; 2], time: number as f64 };
+        let at =
+            |number: usize| Spotted { lanelet: (number as i64).into(), at: [0.0; 2], time: number as f64 };
         (0..=MOST + 3).for_each(|it| places.add(at(it)));
-        let kept: Vec<i64> = places.kept.iter().map(|it| it.lanelet).collect();
+        let kept: Vec<Id> = places.kept.iter().map(|it| it.lanelet).collect();
         assert_eq!((places.every, places.total), (2, MOST as u64 + 4));
         let expected: Vec<i64> = (0..=MOST as i64 + 3).step_by(2).collect();
         assert_eq!(kept, expected);

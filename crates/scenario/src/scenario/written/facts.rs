@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use laneweave_network::{Class, DrivingSide, Extension, Lanelet, LightIndex, SignalPlan};
+use laneweave_network::{Class, DrivingSide, Extension, Id, Lanelet, LightIndex, SignalPlan};
 use laneweave_sim::Place;
 use serde_json::{Value, json};
 
@@ -145,7 +145,7 @@ fn od(prepared: &Prepared) -> Rows {
 }
 
 /// The first entrance with the first exit that it has a route to, and its demand [veh/h].
-fn pair(prepared: &Prepared) -> Option<(i64, i64, f64)> {
+fn pair(prepared: &Prepared) -> Option<(Id, Id, f64)> {
     let world = &prepared.world;
     let exits = world.demand().exits();
     prepared.conditions.origins.iter().enumerate().find_map(|(from, (place, rate))| {
@@ -157,8 +157,8 @@ fn pair(prepared: &Prepared) -> Option<(i64, i64, f64)> {
 /// As an example, a line between the same places, with a stop on its first lanelet.
 fn line(prepared: &Prepared) -> Rows {
     let network = prepared.world.network();
-    let length = |id: i64| network.lanelet_with(id).map_or(0.0, |it| network.lanelets[it.at()].length());
-    let has_room = |(from, ..): &(i64, i64, f64)| length(*from) >= 2.0 * Class::Bus.body().length;
+    let length = |id: Id| network.lanelet_with(id).map_or(0.0, |it| network.lanelets[it.at()].length());
+    let has_room = |(from, ..): &(Id, Id, f64)| length(*from) >= 2.0 * Class::Bus.body().length;
     let tables = pair(prepared).filter(has_room).map(|(from, to, _)| {
         let keys = vec![
             ("name", json!("1")),
@@ -219,7 +219,7 @@ fn signals(prepared: &Prepared) -> Rows {
                     ("gap_s", json!(gap)),
                 ],
             };
-            let lights = ("green", turn.lights.iter().map(name).collect());
+            let lights = ("green", turn.lights.iter().map(|it| json!(name(it))).collect());
             let pauses = [("yellow_s", json!(turn.yellow)), ("all_red_s", json!(turn.all_red))];
             let keys = [lights].into_iter().chain(greens).chain(pauses).collect();
             Row::Table { header: "[[signals.phases]]", keys }
@@ -290,8 +290,8 @@ fn is_closed(prepared: &Prepared) -> bool {
 fn lanes(place: &Place) -> String {
     match (place, place.chains().len()) {
         (Place::Inside(_), _) => "on the lanelet".into(),
-        (Place::Gate(_), 1) => "1 lane".into(),
-        (Place::Gate(_), count) => format!("{count} lanes"),
+        (Place::Gate(_) | Place::Across(_), 1) => "1 lane".into(),
+        (Place::Gate(_) | Place::Across(_), count) => format!("{count} lanes"),
     }
 }
 

@@ -118,7 +118,8 @@ fn two_crossings(line: f64) -> Network {
     let northward = |id, x| lane(id, [x, -50.0], [x, 50.0], [-1.0, 0.0]);
     let road = lane(1, [0.0, 0.0], [200.0, 0.0], [0.0, 1.0]);
     let line = [-2.0, 2.0].map(|y| Point::new(line, y, 0.0)).to_vec();
-    let stop = StopRule { id: 9, kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
+    let stop =
+        StopRule { id: 9.into(), kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
     let lanelets = vec![road, northward(2, 50.0), northward(3, 75.0)];
     let network = Network::new(lanelets, DrivingSide::Right).unwrap();
     network.regulated(&Regulations { stops: vec![stop], ..Regulations::default() })
@@ -169,7 +170,7 @@ fn nobody_has_to_stop_for_what_lies_beyond_the_end_of_its_trip() {
     let network = two_crossings(64.0);
     let chain = network.start_of(LaneletIndex(0)).chain;
     // One trip ends between the line at 64 m and the road at 75 m, and one beyond that.
-    let ends = [67.0, 150.0].map(|station| TripEnd::Inside(InnerPlace { id: 1, chain, station }));
+    let ends = [67.0, 150.0].map(|station| TripEnd::Inside(InnerPlace { id: 1.into(), chain, station }));
     let navigator = Navigator::towards(&network, &ends);
     let styles = [some_style()];
     let stop_of = |x: f64, destination: u16| {

@@ -1,7 +1,8 @@
-use laneweave_network::{DrivingSide, Lanelet, LaneletIndex, Point, Polyline};
+use laneweave_network::{DrivingSide, Id, Lanelet, LaneletIndex, Point, Polyline};
 
 use super::*;
-use crate::route::place::InnerPlace;
+use crate::route::navigate::Navigator;
+use crate::route::place::{CrossSection, InnerPlace};
 
 /// A lane to the east between two stations [m], with a limit of 10 m/s, followed by `following`.
 pub(crate) fn lanelet(id: i64, [from, to]: [f64; 2], following: &[u32]) -> Lanelet {
@@ -39,7 +40,7 @@ fn planner<'a>(
 
 /// The first lanelet after the fork, the time of the route, and that of the alternative. `slow` gives a lanelet's chain
 /// another time than the free one.
-fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
+fn way(kept: bool, slow: Option<(i64, f64)>) -> (Id, f64, f64) {
     let network = fork();
     let into = beside_into(&network);
     let restrictions = ClassRestrictions::default();
@@ -66,8 +67,8 @@ fn way(kept: bool, slow: Option<(i64, f64)>) -> (i64, f64, f64) {
 
 #[test]
 fn the_alternative_is_the_best_way_over_the_end_of_the_lane_that_is_not_the_own_one() {
-    assert_eq!(way(true, None), (2, 40.0, 60.0));
-    assert_eq!(way(false, None), (2, 40.0, 60.0));
+    assert_eq!(way(true, None), (2.into(), 40.0, 60.0));
+    assert_eq!(way(false, None), (2.into(), 40.0, 60.0));
 }
 
 /// A lane of 1,000 m, and a lane on its left from 300 m on.
@@ -90,7 +91,7 @@ fn nobody_changes_lanes_and_back_wherever_there_is_a_jam() {
     let into = beside_into(&network);
     let restrictions = ClassRestrictions::default();
     let [long, short] = [1, 4].map(|id| chain(&network, id));
-    let inner = InnerPlace { id: 3, chain: long, station: 950.0 };
+    let inner = InnerPlace { id: 3.into(), chain: long, station: 950.0 };
     for jammed in 0..5 {
         let mut links = Links::of(&network);
         let times: Vec<f64> = (0..5).map(|it| if it == jammed { 900.0 } else { 30.0 }).collect();
@@ -150,7 +151,24 @@ fn a_change_counts_as_a_detour_the_more_the_less_road_there_is_for_it() {
 
 #[test]
 fn with_new_link_times_a_way_is_kept_with_its_new_time_and_the_best_one_is_another() {
-    assert_eq!(way(true, Some((2, 100.0))), (2, 120.0, 60.0));
-    assert_eq!(way(false, Some((2, 100.0))), (3, 60.0, 120.0));
-    assert_eq!(way(true, Some((1, 50.0))), (2, 80.0, 100.0));
+    assert_eq!(way(true, Some((2, 100.0))), (2.into(), 120.0, 60.0));
+    assert_eq!(way(false, Some((2, 100.0))), (3.into(), 60.0, 120.0));
+    assert_eq!(way(true, Some((1, 50.0))), (2.into(), 80.0, 100.0));
+}
+
+#[test]
+fn a_way_of_its_own_is_kept_where_another_one_is_faster_and_who_leaves_it_goes_there_on_any_way() {
+    let network = fork();
+    let [first, short, long, last] = [1, 2, 3, 4].map(|id| chain(&network, id));
+    let section = CrossSection::new("end".into(), &[Position::new(last, 60.0)]);
+    let own = Place::Across(section.clone().reached_over([first, long]));
+    let anyhow = Place::Across(section);
+    let navigator = Navigator::towards(&network, &[own, anyhow]);
+    let [own, anyhow] = [Some(0), Some(1)];
+    assert_eq!([own, anyhow].map(|it| navigator.waypoint(it, first).next), [Some(long), Some(short)]);
+    assert_eq!([own, anyhow].map(|it| navigator.waypoint(it, first).distance), [560.0, 360.0]);
+    assert!(!navigator.waypoint(own, short).leads_there());
+    assert_eq!(navigator.nearest(&network, own, short, 10.0), anyhow);
+    // Trips end where the line crosses the lane.
+    assert_eq!(navigator.trip_ends(last).iter().map(|it| it.station).collect::<Vec<_>>(), [60.0; 2]);
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use laneweave_network::Position;
+use laneweave_network::{Id, Position};
 use laneweave_sim::{
     Class, Command, CommandError, Control, Lateral, Longitudinal, NewVehicle, Vehicle, VehicleId, World,
 };
@@ -10,7 +10,7 @@ use laneweave_sim::{
 use crate::external::lanes::{drive, insert};
 use crate::external::worlds::world;
 
-fn close(world: &mut World, lanelet: i64, is_closed: bool) {
+fn close(world: &mut World, lanelet: Id, is_closed: bool) {
     world.command(Command::CloseLanelet { lanelet, is_closed }).expect("it is possible");
 }
 
@@ -19,7 +19,7 @@ fn steps(world: &mut World, count: u32) {
 }
 
 /// The lanelets of a straight motorway `x` [m] from its beginning, from the right to the left.
-pub(crate) fn across(world: &World, x: f64) -> Vec<i64> {
+pub(crate) fn across(world: &World, x: f64) -> Vec<Id> {
     let mut found = Vec::new();
     for lanelet in &world.network().lanelets {
         let line = &lanelet.centre;
@@ -33,7 +33,7 @@ pub(crate) fn across(world: &World, x: f64) -> Vec<i64> {
 }
 
 /// The vehicles whose front bumpers are on a lanelet.
-fn on(world: &World, lanelet: i64) -> BTreeSet<VehicleId> {
+fn on(world: &World, lanelet: Id) -> BTreeSet<VehicleId> {
     let is_on = |it: &Vehicle| {
         let at = Position::new(it.spot.chain, it.x());
         world.network().lanelet_at(at).0.id == lanelet
@@ -56,7 +56,7 @@ fn close_a_lane(lanes: &[usize], demand: f64, seed: u64) {
     let mut world = world("motorway_3_lanes.osm", demand, seed, 1);
     steps(&mut world, 1800);
     let all = across(&world, 3000.0);
-    let closed: Vec<i64> = lanes.iter().map(|it| all[*it]).collect();
+    let closed: Vec<Id> = lanes.iter().map(|it| all[*it]).collect();
     let start =
         world.network().lanelets.iter().find(|it| it.id == closed[0]).expect("it is there").centre.at(0.0);
     let mut may: BTreeSet<VehicleId> = closed.iter().flat_map(|it| on(&world, *it)).collect();
@@ -191,12 +191,12 @@ fn a_checkpoint_keeps_what_is_closed_and_threads_do_not_matter() {
 #[test]
 fn a_lane_that_drivers_could_not_leave_is_not_closed() {
     let mut motorway = world("motorway_3_lanes.osm", 0.0, 1, 1);
-    let refused = |world: &mut World, lanelet: i64, part: &str| {
+    let refused = |world: &mut World, lanelet: Id, part: &str| {
         let command = Command::CloseLanelet { lanelet, is_closed: true };
         let text = world.command(command).expect_err(part).to_string();
         assert!(text.contains(part), "{text}");
     };
-    refused(&mut motorway, -7, "there is no lanelet -7; choose one that vehicles may use");
+    refused(&mut motorway, Id::from(-7), "there is no lanelet -7; choose one that vehicles may use");
     let first = across(&motorway, 10.0)[0];
     refused(&mut motorway, first, "choose a lanelet farther on");
     let all = across(&motorway, 3000.0);
@@ -225,11 +225,11 @@ fn a_lane_that_drivers_could_not_leave_is_not_closed() {
 }
 
 /// Closes `count` lanelets chosen by `number` where that is possible.
-fn close_some(world: &mut World, number: u64, count: u64) -> Vec<i64> {
-    let ids: Vec<i64> = world.network().lanelets.iter().map(|it| it.id).collect();
+fn close_some(world: &mut World, number: u64, count: u64) -> Vec<Id> {
+    let ids: Vec<Id> = world.network().lanelets.iter().map(|it| it.id).collect();
     let chosen = (1..=count).map(|it| ids[(number + it * 7919) as usize % ids.len()]);
     let mut is_possible =
-        |lanelet: &i64| world.command(Command::CloseLanelet { lanelet: *lanelet, is_closed: true }).is_ok();
+        |lanelet: &Id| world.command(Command::CloseLanelet { lanelet: *lanelet, is_closed: true }).is_ok();
     chosen.filter(|it| is_possible(it)).collect()
 }
 

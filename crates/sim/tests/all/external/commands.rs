@@ -1,6 +1,6 @@
 //! Commands of users: what they do, and which are refused.
 
-use laneweave_network::LightState;
+use laneweave_network::{Id, LightState};
 use laneweave_sim::{
     Class, Command, CommandError, Control, Event, FIRST_INSERTED, Headways, Lateral, Longitudinal,
     NewVehicle, Setup, VehicleId, World,
@@ -55,7 +55,7 @@ fn the_order_of_commands_between_two_steps_changes_nothing() {
 fn a_driver_takes_another_style_and_another_destination() {
     let mut world = world("ramps.osm", 0.0, 1, 1);
     let id = insert(&mut world, 1, 150.0, 20.0);
-    let exits: Vec<i64> = world.demand().destinations.iter().map(|it| it.id()).collect();
+    let exits: Vec<Id> = world.demand().destinations.iter().map(|it| it.id()).collect();
     assert!(exits.len() > 1);
     world.command(Command::SetStyle(id, "aggressive".into())).expect("it is possible");
     world.step();
@@ -237,11 +237,17 @@ fn impossible_commands_are_refused_with_a_remedy_and_change_nothing() {
             Command::SetStyle(id, "agressive".into()),
             "there is no style agressive; known are aggressive, conservative",
         ),
-        (Command::SetDestination(id, Some(-5)), "there is no destination -5; known are"),
-        (Command::SetLight { light: 3, shows: None }, "there is no light 3; this world has no light"),
-        (Command::SetOffset { light: 3, offset_s: 1.0 }, "there is no light 3; this world has no light"),
-        (Command::SetDemand { origin: -5, vehicles_per_hour: 3.0 }, "there is no origin -5; known are"),
-        (insert(|it| it.lanelet = -7), "there is no lanelet -7"),
+        (Command::SetDestination(id, Some(Id::from(-5))), "there is no destination -5; known are"),
+        (Command::SetLight { light: 3.into(), shows: None }, "there is no light 3; this world has no light"),
+        (
+            Command::SetOffset { light: 3.into(), offset_s: 1.0 },
+            "there is no light 3; this world has no light",
+        ),
+        (
+            Command::SetDemand { origin: Id::from(-5), vehicles_per_hour: 3.0 },
+            "there is no origin -5; known are",
+        ),
+        (insert(|it| it.lanelet = Id::from(-7)), "there is no lanelet -7"),
         (insert(|it| it.position_m = 1e6), "choose 0 to"),
         (insert(|it| it.position_m = f64::NAN), "choose 0 to"),
         (insert(|it| it.speed_mps = -1.0), "a speed of -1: choose 0 to"),

@@ -37,7 +37,7 @@ fn who_cannot_reach_its_trip_end_behind_an_obstacle_takes_another() {
     for before_end in [5.0, 30.0, 100.0] {
         let network = Road { lanes: 2, limit: 50.0 / 3.6, ..Road::default() }.network();
         let Position { chain, x } = network.start_of(LaneletIndex(2));
-        let end = Place::Inside(InnerPlace { id: 3, chain, station: x + 300.0 });
+        let end = Place::Inside(InnerPlace { id: 3.into(), chain, station: x + 300.0 });
         let world = drive(network, 500.0, Some(end), &[Position::new(chain, x + 300.0 - before_end)]);
         let left = world.counts().left;
         assert!(left > 90, "{left} with an obstacle {before_end} m before");

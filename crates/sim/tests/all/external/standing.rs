@@ -1,6 +1,6 @@
 //! Something stands in a lane: drivers see it from afar, leave its lane, and pass.
 
-use laneweave_network::{Position, Rectangle};
+use laneweave_network::{Id, Position, Rectangle};
 use laneweave_sim::{Class, Command, Control, Lateral, Longitudinal, NewVehicle, VehicleId, World};
 
 use crate::external::closed_lanes::across;
@@ -237,7 +237,7 @@ fn an_obstacle_comes_only_where_whoever_drives_there_can_stay_clear_of_it() {
     }
     assert!(put > 5 && refused > 0, "{put} {refused}");
     assert_eq!((world.counters().collisions, world.counters().overlaps), (0, 0));
-    assert!(world.obstacle_in_lane(-1, 3.0, [4.0, 2.0]).is_err(), "there is no such lanelet");
+    assert!(world.obstacle_in_lane(Id::from(-1), 3.0, [4.0, 2.0]).is_err(), "there is no such lanelet");
     let lanelet = across(&world, 500.0)[0];
     for (x, size) in [(-1.0, [4.0, 2.0]), (50.0, [0.0, 2.0]), (1e4, [4.0, 2.0]), (50.0, [4.0, f64::NAN])] {
         assert!(world.obstacle_in_lane(lanelet, x, size).is_err(), "{x} {size:?}");

@@ -2,7 +2,7 @@
 
 use laneweave_models::{Guidance, Style};
 use laneweave_network::{
-    ChainIndex, DrivingSide, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations,
+    ChainIndex, DrivingSide, Id, Lanelet, LaneletIndex, Network, Point, Polyline, Position, Regulations,
     StopKind, StopRule,
 };
 use laneweave_sim::{Class, Disutility, Navigator, Placement};
@@ -63,7 +63,7 @@ fn fork() -> Network {
         lane(4, &[(500.0, 0.0), (700.0, 0.0)], &[]),
     ];
     let light = |id: i64, lanelet: u32| StopRule {
-        id,
+        id: id.into(),
         kind: StopKind::Light,
         lanelets: vec![LaneletIndex(lanelet)],
         lines: Vec::new(),
@@ -89,7 +89,7 @@ fn a_way_and_its_alternative_have_the_turns_and_lights_that_lie_on_them() {
 }
 
 /// The road that a driver takes with guidance about slow vehicles on the straight one.
-fn chosen(guidance: Guidance) -> i64 {
+fn chosen(guidance: Guidance) -> Id {
     let network = fork();
     let [first, straight, last] = [1, 2, 4].map(|it| chain_of(&network, it));
     let me = Style { guidance, ..drivers::conservative() };

@@ -75,7 +75,7 @@ impl Road {
             if self.is_mirrored { (towards_slow, towards_fast) } else { (towards_fast, towards_slow) };
         let next_row = if self.is_ring { (row + 1) % self.rows() } else { row + 1 };
         Lanelet {
-            id: i64::from(self.index(row, lane).0) + 1,
+            id: (i64::from(self.index(row, lane).0) + 1).into(),
             centre: Polyline::between(&left_border, &right_border).expect("the line has a length"),
             left_border,
             right_border,

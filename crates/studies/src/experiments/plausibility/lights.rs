@@ -38,7 +38,7 @@ pub(super) fn rows(effort: &Effort) -> Result<Vec<Row>, Fault> {
 
 /// Flow of a lane while its queue discharges [veh/h].
 fn flow(simulation: &mut Simulation) -> Option<f64> {
-    let lanes = simulation.network().entrances.iter().find(|it| it.id.to_string() == STRAIGHT_ON[0])?;
+    let lanes = simulation.network().entrances.iter().find(|it| it.id == STRAIGHT_ON[0])?;
     let mut line = StopLine { lanes: lanes.chains.clone(), on: BTreeMap::new(), passed: BTreeMap::new() };
     steps(simulation, |simulation, _| line.see(simulation));
     let headways: Vec<f64> = line.passed.values().flat_map(|it| headways(it)).collect();

@@ -5,7 +5,7 @@ use std::fs;
 use laneweave::record::{End, Record, fingerprint};
 use laneweave::run::{Resumed, Run, kept, resume};
 use laneweave::scenario::{External, Origin, Scenario};
-use laneweave::{Class, Control, Lateral, Longitudinal, Simulation};
+use laneweave::{Class, Control, Id, Lateral, Longitudinal, Simulation};
 use laneweave_studies::branch::Twins;
 use laneweave_test_data::map;
 
@@ -16,7 +16,7 @@ fn lead() -> External {
     External {
         name: Some("lead".into()),
         time_s: 20.0,
-        lanelet: 5,
+        lanelet: 5.into(),
         position_m: 60.0,
         speed_mps: 15.0,
         class: Class::Car,
@@ -117,10 +117,10 @@ fn what_cannot_be_is_refused_with_a_remedy() {
         change(&mut external);
         refused(&with(vec![external])).to_string()
     };
-    assert!(told(&|it| it.lanelet = 4711).contains("there is no lanelet 4711; choose one"));
+    assert!(told(&|it| it.lanelet = 4711.into()).contains("there is no lanelet 4711; choose one"));
     assert!(told(&|it| it.position_m = 1e6).contains("m long; choose 0 to "));
     assert!(told(&|it| it.style = "odd".into()).contains("odd"));
-    assert!(told(&|it| it.destination = Some(-7)).contains("-7"));
+    assert!(told(&|it| it.destination = Some(Id::from(-7))).contains("-7"));
     assert!(told(&|it| it.time_s = -1.0).contains("a time of -1 s; choose 0 to 10000000 s"));
     assert!(told(&|it| it.held_speed_mps = Some(500.0)).contains("a speed of 500; choose 0 to 83"));
     assert!(refused(&with(vec![lead(), lead()])).what.contains("the same name"));

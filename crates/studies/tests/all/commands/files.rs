@@ -39,7 +39,8 @@ fn commands_can_be_written_by_hand_in_any_order() {
 fn an_offset_concerns_its_light() {
     let mut own = scenario("town.osm", 500.0, 10.0);
     let light = simulation(&own).lights().first().expect("a light").id;
-    let row = format!("2.0,light,{light},set_offset,\"{{\"\"light\"\":{light},\"\"offset_s\"\":12.5}}\"\n");
+    let row =
+        format!("2.0,light,{light},set_offset,\"{{\"\"light\"\":\"\"{light}\"\",\"\"offset_s\"\":12.5}}\"\n");
     own.commands = Some(file("offset", &format!("time_s,target,id,act,values\n{row}")));
     let dir = folder("offset-out");
     assert_eq!(run(&own, &dir).commands_refused, 0);

@@ -14,7 +14,7 @@ use super::runs::{assert_same_tables, folder, refused, run, scenario, simulation
 /// Something on the right lane of a motorway between 10 and 40 s.
 fn load() -> Obstacle {
     let (from_s, until_s) = (10.0, Some(40.0));
-    Obstacle { lanelet: 9, position_m: 60.0, length_m: 2.0, width_m: 1.5, from_s, until_s }
+    Obstacle { lanelet: 9.into(), position_m: 60.0, length_m: 2.0, width_m: 1.5, from_s, until_s }
 }
 
 fn with(obstacle: Vec<Obstacle>) -> Scenario {
@@ -33,7 +33,7 @@ fn it_stands_there_between_its_times_and_is_no_vehicle() {
     let path = folder("obstacles").join("own.toml");
     fs::write(&path, text).expect("it is written");
     let mut own = Simulation::from_file(&path).expect("it is sound");
-    let usual = Obstacle { lanelet: 10, position_m: 30.0, from_s: 50.0, until_s: None, ..load() };
+    let usual = Obstacle { lanelet: 10.into(), position_m: 30.0, from_s: 50.0, until_s: None, ..load() };
     assert_eq!(own.scenario().obstacle, [load(), Obstacle { length_m: 4.5, width_m: 1.8, ..usual }]);
     let mut lengths = Vec::new();
     for until_s in 1..=6 {
@@ -116,11 +116,11 @@ fn what_stands_in_the_map_stands_on_its_lanes_from_the_start() {
 #[test]
 fn one_that_finds_no_place_is_told_and_one_that_comes_later_is_not() {
     let later = Obstacle { from_s: 300.0, until_s: None, ..load() };
-    let mut own = with(vec![load(), later, Obstacle { lanelet: 10, ..load() }]);
+    let mut own = with(vec![load(), later, Obstacle { lanelet: 10.into(), ..load() }]);
     own.external = vec![External {
         name: None,
         time_s: 0.0,
-        lanelet: 10,
+        lanelet: 10.into(),
         position_m: 60.0,
         speed_mps: 0.0,
         class: Class::Car,
@@ -141,7 +141,7 @@ fn what_cannot_be_is_refused_with_a_remedy() {
         change(&mut obstacle);
         refused(&with(vec![obstacle])).to_string()
     };
-    assert!(told(&|it| it.lanelet = 4711).contains("there is no lanelet 4711; choose one"));
+    assert!(told(&|it| it.lanelet = 4711.into()).contains("there is no lanelet 4711; choose one"));
     assert!(told(&|it| it.position_m = 1e6).contains("m long; choose 0 to "));
     assert!(told(&|it| it.position_m = f64::NAN).contains("m long; choose 0 to "));
     assert!(told(&|it| it.length_m = 0.0).contains("a length of 0; choose 0.1 to 60 m"));

@@ -108,8 +108,14 @@ fn blocked(dir: &str) -> PathBuf {
     let act = |it: &mut Simulation| -> Result<(), laneweave::Fault> {
         if it.clock().step == 200 {
             let (class, style) = (Class::Truck, "conservative".to_owned());
-            let vehicle =
-                NewVehicle { lanelet: 5, position_m: 60.0, speed_mps: 20.0, class, style, destination: None };
+            let vehicle = NewVehicle {
+                lanelet: 5.into(),
+                position_m: 60.0,
+                speed_mps: 20.0,
+                class,
+                style,
+                destination: None,
+            };
             let id = it.insert(vehicle)?;
             let (longitudinal, lateral) = (Longitudinal::Speed(0.0), Lateral::Keep);
             it.control(id, Control::Drive { longitudinal, lateral })?;

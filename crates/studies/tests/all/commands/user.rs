@@ -1,7 +1,7 @@
 //! A user who does all that users can do, at random.
 
 use laneweave::{
-    Class, Control, Fault, IncentiveName, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
+    Class, Control, Fault, Id, IncentiveName, Lateral, LightState, Longitudinal, NewVehicle, Parameter, Side,
     Simulation, VehicleId,
 };
 
@@ -51,8 +51,8 @@ impl User {
         vehicles: &[VehicleId],
     ) -> Result<(), Fault> {
         let nobody = || Fault::new("here", "there is nobody", "wait");
-        let origins: Vec<i64> = simulation.origins().into_iter().map(|(id, _)| id).collect();
-        let destinations: Vec<Option<i64>> = simulation.destinations().into_iter().map(Some).collect();
+        let origins: Vec<Id> = simulation.origins().into_iter().map(|(id, _)| id).collect();
+        let destinations: Vec<Option<Id>> = simulation.destinations().into_iter().map(Some).collect();
         let destination = if self.below(4) > 0 { self.one(&destinations).flatten() } else { None };
         let style = self.one(&["aggressive", "conservative"]).unwrap_or_default();
         let id = self.one(vehicles);
@@ -100,7 +100,7 @@ impl User {
                 simulation.set_offset(light.id, 60.0 * self.share())
             }
             _ => {
-                let lights: Vec<i64> = simulation.lights().iter().map(|it| it.id).collect();
+                let lights: Vec<Id> = simulation.lights().iter().map(|it| it.id).collect();
                 let light = self.one(&lights).ok_or_else(nobody)?;
                 let shows = self.one(&[
                     Some(LightState::Green),
