@@ -2,7 +2,7 @@
 //!
 //! * `config.rs` configurations; `elements.rs` vehicles, routes and types as plain data
 //! * `edges.rs` the edges of a net among the lanelets of a network
-//! * `vehicle_type.rs` types as classes and styles; `schedule.rs` vehicles as departures
+//! * `vehicle_type.rs` types as classes and styles; `schedule.rs` vehicles as departures, and `growing.rs` their places
 
 mod config;
 mod edges;

@@ -6,8 +6,8 @@ use toml::{Table, Value};
 
 use super::elements::TypeElement;
 
-/// What a type says that has no counterpart here.
-const KNOWN: [&str; 22] = [
+/// Attributes of a type that are used, or only say how its vehicles look.
+const KNOWN: [&str; 18] = [
     "id",
     "vClass",
     "accel",
@@ -24,10 +24,6 @@ const KNOWN: [&str; 22] = [
     "guiShape",
     "emissionClass",
     "imgFile",
-    "length",
-    "width",
-    "height",
-    "maxSpeed",
     "personCapacity",
     "osgFile",
 ];
