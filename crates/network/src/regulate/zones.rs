@@ -111,7 +111,13 @@ fn zone_of(
         _ => touch,
     };
     let reach = |side: usize| Reach { chain: pair[side], start: starts[side].max(0.0), end: ends[side] };
-    Some(Zone { kind, touch, sides: [reach(0), reach(1)], precedence: Precedence::Arrival })
+    Some(Zone {
+        kind,
+        touch,
+        sides: [reach(0), reach(1)],
+        precedence: Precedence::Arrival,
+        is_kept_clear: true,
+    })
 }
 
 /// Whether by far the most contacts are of a kind.

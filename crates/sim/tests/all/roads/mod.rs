@@ -74,19 +74,15 @@ impl Road {
         let (left, right) =
             if self.is_mirrored { (towards_slow, towards_fast) } else { (towards_fast, towards_slow) };
         let next_row = if self.is_ring { (row + 1) % self.rows() } else { row + 1 };
+        let id = i64::from(self.index(row, lane).0) + 1;
+        let centre = Polyline::between(&left_border, &right_border).expect("the line has a length");
         Lanelet {
-            id: (i64::from(self.index(row, lane).0) + 1).into(),
-            centre: Polyline::between(&left_border, &right_border).expect("the line has a length"),
-            left_border,
-            right_border,
-            speed_limit: self.limit,
             classes: (self.classes)(row, lane),
             is_in_town: self.is_in_town,
             following: if next_row < self.rows() { vec![self.index(next_row, lane)] } else { vec![] },
             left,
             right,
-            adjacent_left: None,
-            adjacent_right: None,
+            ..Lanelet::alone(id, [left_border, right_border, centre], self.limit)
         }
     }
 
