@@ -43,8 +43,8 @@ pub enum MapError {
         /// What to give in its place.
         remedy: String,
     },
-    /// It is a road network of a format that is not read.
-    #[error("by its content this is {what}, which is not read; {remedy}")]
+    /// It is of a format that is not read as a map.
+    #[error("by its content this is {what}, which is not read as a map; {remedy}")]
     Foreign {
         /// What it is.
         what: &'static str,

@@ -1,10 +1,10 @@
-//! Formats of road networks that are not read, told by their content.
+//! Formats that are not read as maps, told by their content.
 
 use std::fmt;
 
 use crate::xml;
 
-/// A format of road networks that is not read.
+/// A format that is not read as a map.
 #[derive(Clone, Copy, Debug)]
 pub struct Foreign {
     /// What a file of it is, for users.
@@ -19,8 +19,18 @@ pub struct Foreign {
 pub(crate) const FROM_STREETS: &str =
     "make a net of SUMO of it, which is read: netconvert --osm-files IN.osm -o OUT.net.xml";
 
-/// The formats that are known, but not read.
+/// The formats that are known, but not read as maps.
 const ALL: &[Foreign] = &[
+    Foreign {
+        name: "a configuration of SUMO",
+        remedy: "run it with `laneweave run`, or give the net that it names in net-file",
+        begins: |it| matches!(xml::root(it), Some("configuration" | "sumoConfiguration")),
+    },
+    Foreign {
+        name: "a file with vehicles or other additions to a net of SUMO",
+        remedy: "name it in a configuration (.sumocfg) beside the net, and run that with `laneweave run`",
+        begins: |it| matches!(xml::root(it), Some("routes" | "additional")),
+    },
     Foreign {
         name: "an OpenDRIVE road network",
         remedy: "make a net of SUMO of it, which is read: netconvert --opendrive-files IN.xodr -o OUT.net.xml",

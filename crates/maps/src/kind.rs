@@ -16,7 +16,7 @@ use crate::format::{FORMATS, Format};
 pub enum FileKind {
     /// A map of this format, maybe compressed; maybe with a recording ([`Format::has_tracks`]).
     Map(&'static Format),
-    /// A road network of a format that is not read.
+    /// A file of a known format that is not read as a map.
     Foreign(&'static Foreign),
     /// Another XML file.
     Xml,

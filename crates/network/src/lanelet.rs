@@ -108,8 +108,6 @@ pub struct Lanelet {
     pub adjacent_left: Option<LaneletIndex>,
     /// The neighbour on the right to which no change is allowed.
     pub adjacent_right: Option<LaneletIndex>,
-    /// The lanelets whose vehicles cross its own, or join them, if the map says so. Else it follows from the shapes.
-    pub conflicting: Option<Vec<LaneletIndex>>,
 }
 
 impl Lanelet {
@@ -132,7 +130,6 @@ impl Lanelet {
             right: None,
             adjacent_left: None,
             adjacent_right: None,
-            conflicting: None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The class `Simulation`.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
@@ -150,6 +151,12 @@ impl Simulation {
     #[getter]
     fn lanelets(&self, py: Python<'_>) -> PyResult<Vec<GivenId>> {
         self.ask(py, |it| it.lanelets().into_iter().map(GivenId).collect())
+    }
+
+    /// What each traffic light shows, by its id: green, yellow or red.
+    #[getter]
+    fn lights(&self, py: Python<'_>) -> PyResult<BTreeMap<String, &'static str>> {
+        self.ask(py, |it| it.lights().into_iter().map(|it| (it.id.to_string(), it.state.name())).collect())
     }
 
     /// Where trips start, by the smallest lanelet id, with the demand there [veh/h].
@@ -331,22 +338,16 @@ impl Simulation {
     /// Another simulation in the same state, which goes on by itself.
     fn branch(&self, py: Python<'_>) -> PyResult<Simulation> {
         self.with(py, |it| {
-            let branch = Mutex::new(Some(self.branched(it)?));
-            let (template, around) = (self.template.clone(), Arc::clone(&self.around));
-            Ok(Simulation { held: branch, template, around })
+            let held = Mutex::new(Some(self.branched(it)?));
+            Ok(Simulation { held, template: self.template.clone(), around: Arc::clone(&self.around) })
         })
     }
 
     /// A picture of the traffic as it is now, as PNG.
     #[pyo3(name = "_png")]
-    fn png<'py>(
-        &self,
-        py: Python<'py>,
-        camera: GivenCamera,
-        size: [u32; 2],
-    ) -> PyResult<Bound<'py, PyBytes>> {
+    fn png(&self, py: Python<'_>, camera: GivenCamera, size: [u32; 2]) -> PyResult<Py<PyBytes>> {
         let png = self.with(py, |it| Ok(taken(self.branched(it)?, &self.around, camera, size)?.to_png()?))?;
-        Ok(PyBytes::new(py, &png))
+        Ok(PyBytes::new(py, &png).unbind())
     }
 
     /// The same as an array: height × width × red, green and blue.

@@ -8,6 +8,7 @@ from pathlib import Path
 import laneweave as lw
 import numpy as np
 import pytest
+from conftest import MAPS
 
 
 def test_columns_are_those_of_the_vehicles(ramps: Path) -> None:
@@ -30,6 +31,16 @@ def test_keys_are_those_of_a_scenario(ramps: Path) -> None:
     assert scenario["demand"]["trucks"] == 0.25 and scenario["demand"]["vehicles_per_hour"] == 1200
     assert scenario["styles"] == {"aggressive": 1.0}
     assert (scenario["run"]["step_s"], scenario["run"]["seed"]) == (0.2, 7)
+
+
+def test_lights_change() -> None:
+    simulation = lw.Simulation(MAPS / "grid.osm", vehicles_per_hour=100)
+    before = simulation.lights
+    seen = set(before.values())
+    for _ in range(90):
+        simulation.step(10)
+        seen |= set(simulation.lights.values())
+    assert before.keys() == simulation.lights.keys() and seen == {"green", "yellow", "red"}
 
 
 def test_lane_changes_have_their_reasons(ramps: Path) -> None:

@@ -22,14 +22,29 @@ fn refusal(name: &str, content: impl AsRef<[u8]>) -> String {
 fn road_networks_of_other_formats_are_told_by_their_content() {
     let opendrive = "<?xml version='1.0' standalone='yes'?>\n<OpenDRIVE><header/></OpenDRIVE>";
     for name in ["town.xodr", "town.xml", "town.osm", "town"] {
-        let expected =
-            format!("by its content this is an OpenDRIVE road network, which is not read{FROM_OPENDRIVE}");
+        let expected = format!(
+            "by its content this is an OpenDRIVE road network, which is not read as a map{FROM_OPENDRIVE}"
+        );
         assert_eq!(refusal(name, opendrive), expected, "{name}");
     }
     let sumo = "<?xml version='1.0'?>\n<!-- by netconvert -->\n<net version='1.16'></net>";
     for name in ["town.net", "town.osm"] {
         let expected = "by its content this is a SUMO map";
         assert!(refusal(name, sumo).contains(expected), "{name}: {}", refusal(name, sumo));
+    }
+    for (text, remedy) in [
+        ("<configuration/>", "run it with `laneweave run`, or give the net"),
+        ("<!-- tutorial --><sumoConfiguration/>", "run it with `laneweave run`, or give the net"),
+        ("<routes><vehicle/></routes>", "name it in a configuration (.sumocfg) beside the net"),
+        ("<additional/>", "name it in a configuration (.sumocfg) beside the net"),
+    ] {
+        for name in ["town.sumocfg", "town.rou.xml", "town"] {
+            let refusal = refusal(name, text);
+            assert!(
+                refusal.contains("which is not read as a map; ") && refusal.contains(remedy),
+                "{refusal}"
+            );
+        }
     }
     for name in ["town.osm.pbf", "town.pbf", "town.osm"] {
         let refusal = refusal(name, b"\0\0\0\x0e\n\tOSMHeader\x18\xb0\x01\x10");
@@ -49,7 +64,7 @@ fn real_files_of_other_formats_are_told() {
         let refusal = load(&path, &ReadOptions::default()).unwrap_err().to_string();
         assert_eq!(
             refusal,
-            format!("by its content this is {what}, which is not read{FROM_OPENDRIVE}"),
+            format!("by its content this is {what}, which is not read as a map{FROM_OPENDRIVE}"),
             "{file}"
         );
     }

@@ -28,8 +28,6 @@ pub struct Zone {
     pub sides: [Reach; 2],
     /// The side with priority.
     pub precedence: Precedence,
-    /// Drivers do not stop within it: others would have to cross there.
-    pub is_kept_clear: bool,
 }
 
 /// Kinds of zones.

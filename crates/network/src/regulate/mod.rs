@@ -3,14 +3,12 @@
 //!
 //! `contact.rs` finds exactly where vehicles would touch. From that follow where lanes that end beside others are left
 //! (`ends.rs`), the conflict zones (`zones.rs`), how far the branches of forks are in each other's way (`fork.rs`), who
-//! has priority in each zone (`precedence.rs`), also in roundabouts (`ring.rs`), which zones are kept clear
-//! (`kept_clear.rs`), where drivers stop (`places.rs`), and where they turn (`turning.rs`). The programs of lights are
-//! in `signals`. Who holds which zone is the simulator's.
+//! has priority in each (`precedence.rs`), also in roundabouts (`ring.rs`), where drivers stop (`places.rs`), and where
+//! they turn (`turning.rs`). The programs of lights are in `signals`. Who holds which zone is the simulator's.
 
 mod contact;
 mod ends;
 mod fork;
-mod kept_clear;
 mod kinship;
 mod nearby;
 mod places;
@@ -115,7 +113,6 @@ fn junctions(network: &Network, contacts: &Contacts, regulations: &Regulations) 
     let rings = ring::rings(network);
     let in_ring: Vec<bool> = rings.iter().map(|it| *it != Ring::No).collect();
     precedence::settle(network, &kinship, regulations, &in_ring, &mut zones);
-    kept_clear::settle(network, &mut zones);
     let mut chains = vec![OnChain::EMPTY; network.chains.len()];
     for (zone, index) in zones.iter().zip(0..) {
         for (reach, side) in zone.sides.iter().zip(0..) {

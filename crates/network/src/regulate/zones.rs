@@ -111,13 +111,7 @@ fn zone_of(
         _ => touch,
     };
     let reach = |side: usize| Reach { chain: pair[side], start: starts[side].max(0.0), end: ends[side] };
-    Some(Zone {
-        kind,
-        touch,
-        sides: [reach(0), reach(1)],
-        precedence: Precedence::Arrival,
-        is_kept_clear: true,
-    })
+    Some(Zone { kind, touch, sides: [reach(0), reach(1)], precedence: Precedence::Arrival })
 }
 
 /// Whether by far the most contacts are of a kind.

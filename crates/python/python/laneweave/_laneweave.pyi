@@ -59,6 +59,10 @@ class Simulation:
         """The ids of all lanelets."""
 
     @property
+    def lights(self) -> dict[str, str]:
+        """What each traffic light shows, by its id: green, yellow or red."""
+
+    @property
     def origins(self) -> list[tuple[str, float]]:
         """Where trips start, by the smallest lanelet id, with the demand there [veh/h]."""
 

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use laneweave_network::{LaneletIndex, Network, Position};
-use laneweave_sim::{Demand, Trips, VehicleId, World};
+use laneweave_scenario::scenario::Scenario;
+use laneweave_sim::{Class, Demand, Trips, VehicleId, World};
 
-use super::sumo::Lanes;
+use super::sumo::{Lanes, attribute};
 
 /// The data that all writers look up.
 pub(super) struct Names {
@@ -15,8 +16,8 @@ pub(super) struct Names {
     driver_parameters: Vec<(String, f64)>,
     /// The ids of the lanelets.
     lanelets: Vec<String>,
-    /// The names of the first vehicles, if all of them have one.
-    vehicles: Vec<String>,
+    /// The names of the first vehicles, if all of them have one: as text, and as XML.
+    vehicles: [Vec<String>; 2],
     /// The ids of the origins and of the destinations, in the order of the demand.
     origins: Vec<String>,
     destinations: Vec<String>,
@@ -24,22 +25,34 @@ pub(super) struct Names {
     pub(super) lanes: Lanes,
     /// Length of a step [s].
     pub(super) step_s: f64,
+    /// The time of SUMO's files at which the simulation begins [s].
+    pub(super) begin_s: f64,
+    /// For each set of driver parameters its type of SUMO, as XML; empty if drivers have other styles.
+    types: Vec<String>,
 }
 
 impl Names {
-    pub(super) fn of(world: &World) -> Names {
+    /// The names in a world with vehicles of SUMO, if there are any.
+    pub(super) fn of(world: &World, scenario: &Scenario) -> Names {
         let network = world.shared_network();
-        let driver_parameters =
-            world.scene().driver_parameters.iter().map(|it| (it.name.clone(), it.speed_factor));
+        let styles = world.scene().driver_parameters;
+        let driver_parameters = styles.iter().map(|it| (it.name.clone(), it.speed_factor));
+        // Its types are styles, unless others take their place.
+        let has_types = scenario.sumo.is_asked() && scenario.styles.is_empty();
+        let types = styles.iter().filter(|_| has_types).map(|it| attribute(&it.name));
         let demand = world.demand();
+        let vehicles = vehicles(demand);
+        let in_xml = vehicles.iter().map(|it| attribute(it)).collect();
         Names {
             driver_parameters: driver_parameters.collect(),
-            vehicles: vehicles(demand),
+            vehicles: [vehicles, in_xml],
             lanelets: network.lanelets.iter().map(|it| it.id.to_string()).collect(),
             origins: demand.origins.iter().map(|it| it.place.id().to_string()).collect(),
             destinations: demand.destinations.iter().map(|it| it.id().to_string()).collect(),
             lanes: Lanes::of(&network),
             step_s: world.clock().dt,
+            begin_s: scenario.sumo.begin_s,
+            types: types.collect(),
             network,
         }
     }
@@ -61,7 +74,17 @@ impl Names {
 
     /// The name of a vehicle, if it has one.
     pub(super) fn vehicle(&self, id: VehicleId) -> Option<&str> {
-        self.vehicles.get(id as usize).map(String::as_str)
+        self.vehicles[0].get(id as usize).map(String::as_str)
+    }
+
+    /// The same as the value of an attribute.
+    pub(super) fn vehicle_in_xml(&self, id: VehicleId) -> Option<&str> {
+        self.vehicles[1].get(id as usize).map(String::as_str)
+    }
+
+    /// The type of a vehicle for SUMO, as the value of an attribute: its own, or its class.
+    pub(super) fn type_in_xml(&self, class: Class, parameters: u32) -> &str {
+        self.types.get(parameters as usize).map_or(class.body().name, String::as_str)
     }
 
     /// The id of the lanelet at a place.

@@ -44,7 +44,7 @@ pub fn outputs(
     let (tables, xml) = (tables(prepared, &folder)?, xml(scenario, prepared, &folder)?);
     let cores = available_parallelism().map_or(1, NonZero::get);
     let free = cores.saturating_sub(prepared.threads);
-    let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world), log, free)?;
+    let (writers, written) = WriterThreads::begin(xml, tables, Names::of(world, scenario), log, free)?;
     let sender = writers.sender();
     let mut outputs: Vec<Box<dyn Output>> = Vec::new();
     if let Some(steps) = prepared.conditions.record_steps {

@@ -61,8 +61,9 @@ mod tests {
     #[test]
     fn a_batch_of_places_and_drivers_that_there_are_not_is_not_sound() {
         let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../maps/on_ramp.osm");
-        let prepared = prepare(&Scenario::of_map(map), &Origin::default()).expect("the map is sound");
-        let (names, network) = (Names::of(&prepared.world), prepared.world.network());
+        let scenario = Scenario::of_map(map);
+        let prepared = prepare(&scenario, &Origin::default()).expect("the map is sound");
+        let (names, network) = (Names::of(&prepared.world, &scenario), prepared.world.network());
         let chains = network.chains.len() as u32;
         let drivers = names.styles().count() as u32;
         let incident = |[chain, parameters]: [u32; 2], x| {

@@ -83,7 +83,11 @@ pub(super) fn add_lines(
             let inner = inner_place(stop, line.class, network).map_err(|(key, what, remedy)| {
                 Fault::new(place(&format!("stops.{at}.{key}")), what, remedy)
             })?;
-            stops.push(LineStop { destination: demand.destinations.len(), rest_s: stop.rest_s });
+            stops.push(LineStop {
+                destination: demand.destinations.len(),
+                rest_s: stop.rest_s,
+                until_s: None,
+            });
             demand.destinations.push(Place::Inside(inner));
         }
         let departures = Departures {

@@ -17,7 +17,8 @@ const DEMO_MAP: &str = include_str!("../../assets/town.osm");
 
 /// Whether a file is a configuration of SUMO, by its name.
 fn is_configuration(path: &Path) -> bool {
-    path.extension().is_some_and(|it| it.eq_ignore_ascii_case("sumocfg"))
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    name.ends_with(".sumocfg") || name.ends_with(".sumo.cfg")
 }
 
 /// The source of the values of a scenario.

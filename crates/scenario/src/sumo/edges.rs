@@ -1,6 +1,7 @@
 //! The edges of a net of SUMO among the lanelets of a network.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use laneweave_network::{ChainIndex, Class, Id, LaneletIndex, Network, Position};
 use laneweave_sim::{CrossSection, InnerPlace, LineStop};
@@ -17,25 +18,30 @@ const STOPS_BEFORE_THE_END: f64 = LineStop::MARGIN + 0.1;
 pub(super) struct Edges<'a> {
     network: &'a Network,
     lanes: HashMap<&'a str, Vec<LaneletIndex>>,
+    /// For each lanelet that is a lane of an edge the name of that.
+    names: Vec<Option<&'a str>>,
 }
 
 impl<'a> Edges<'a> {
     /// The edges of a `network`, whose lanelets have the `ids`.
     pub(super) fn of(network: &'a Network, ids: &'a [String]) -> Edges<'a> {
         let mut lanes: HashMap<&str, Vec<(u32, LaneletIndex)>> = HashMap::new();
+        let mut names = vec![None; network.lanelets.len()];
         for (id, place) in ids.iter().zip(0..) {
             if let Some((edge, index)) =
                 id.rsplit_once('_').filter(|_| !id.starts_with(':') && !id.contains(' '))
                 && let Ok(index) = index.parse()
             {
                 lanes.entry(edge).or_default().push((index, LaneletIndex(place)));
+                names[place as usize] = Some(edge);
             }
         }
         let sorted = |mut lanes: Vec<(u32, LaneletIndex)>| {
             lanes.sort_unstable();
             lanes.into_iter().map(|it| it.1).collect()
         };
-        Edges { network, lanes: lanes.into_iter().map(|(edge, lanes)| (edge, sorted(lanes))).collect() }
+        let lanes = lanes.into_iter().map(|(edge, lanes)| (edge, sorted(lanes))).collect();
+        Edges { network, lanes, names }
     }
 
     /// The lanes of an edge that a class may use; none if there is no such edge.
@@ -76,17 +82,76 @@ impl<'a> Edges<'a> {
         Some(CrossSection::new(edge.into(), &lanes))
     }
 
-    /// Where trips end on an edge: at its end, or so far from its beginning [m]; from its end if negative.
+    /// Where trips end on an edge: at its end, or so far from its beginning [m]; from its end if negative. In a lane
+    /// that ends beside others it is before the place where drivers wait to leave it.
     pub(super) fn end(&self, edge: &str, at: Option<f64>) -> Option<CrossSection> {
         let place = |lanelet: &LaneletIndex| {
             let Position { chain, x: from } = self.network.start_of(*lanelet);
             let length = self.network.lanelets[lanelet.at()].length();
-            let last = (length - BEFORE_THE_END).max(0.5 * length);
+            let lane = self.network.chain(chain);
+            let waits = lane.driven_until(true) - from - LineStop::BEFORE_A_LANE_END;
+            let waits = if lane.is_lane_drop() { waits } else { f64::INFINITY };
+            let last = (length - BEFORE_THE_END).min(waits).max(0.5 * length);
             let along = at.map_or(last, |it| if it < 0.0 { length + it } else { it });
             Position::new(chain, from + along.clamp(0.5 * length.min(2.0 * BEFORE_THE_END), last))
         };
         let lanes: Vec<Position> = self.lanes.get(edge)?.iter().map(place).collect();
         Some(CrossSection::new(edge.into(), &lanes))
+    }
+
+    /// The edges of the fastest way of a class over these edges, on a free road; `None` if there is none.
+    pub(super) fn fastest_over(&self, edges: &[String], class: Class) -> Option<Vec<String>> {
+        let mut way = vec![edges[0].clone()];
+        for pair in edges.windows(2) {
+            way.extend(self.fastest([&pair[0], &pair[1]], class)?.into_iter().map(str::to_owned));
+        }
+        Some(way)
+    }
+
+    /// The edges of the fastest way from one edge to another one, without the first.
+    fn fastest(&self, [from, to]: [&'a str; 2], class: Class) -> Option<Vec<&'a str>> {
+        /// Times are compared in thousandths of a second.
+        const PER_SECOND: f64 = 1000.0;
+        let mut before: HashMap<&str, &str> = HashMap::new();
+        let mut settled: HashSet<&str> = HashSet::new();
+        let mut open = BinaryHeap::from([Reverse((0_u64, from, from))]);
+        while let Some(Reverse((time, edge, last))) = open.pop() {
+            if !settled.insert(edge) {
+                continue;
+            }
+            before.insert(edge, last);
+            if edge == to {
+                break;
+            }
+            for (next, seconds) in self.beyond(edge, class) {
+                open.push(Reverse((time + (seconds * PER_SECOND) as u64, next, edge)));
+            }
+        }
+        let mut way = Vec::new();
+        let mut at = to;
+        while at != from {
+            way.push(at);
+            at = before.get(at)?;
+        }
+        way.reverse();
+        Some(way)
+    }
+
+    /// The edges to which a class may go on from an edge, with the time that they take on a free road [s].
+    fn beyond(&self, edge: &str, class: Class) -> impl Iterator<Item = (&'a str, f64)> {
+        let network = self.network;
+        let follow = move |it: LaneletIndex| network.lanelets[it.at()].following.iter().copied();
+        let next = self.lanes(edge, class).into_iter().flat_map(follow);
+        let lanes = next.flat_map(move |it| match self.names[it.at()] {
+            Some(_) => vec![it],
+            None if network.lanelets[it.at()].classes.has(class) => follow(it).collect(),
+            None => Vec::new(),
+        });
+        let usable = lanes.filter(move |it| network.lanelets[it.at()].classes.has(class));
+        usable.filter_map(move |it| {
+            let lanelet = &network.lanelets[it.at()];
+            Some((self.names[it.at()]?, lanelet.length() / lanelet.speed_limit))
+        })
     }
 
     /// The chains over which a class drives along these edges; `None` if no way leads from one to the next.

@@ -65,6 +65,9 @@ pub(super) struct StopElement {
     pub(super) at: Result<String, BusStop>,
     /// [s].
     pub(super) duration_s: f64,
+    /// The vehicle does not go on before this time [s]: after its departure, if the stop is one of a route that has a
+    /// name.
+    pub(super) until_s: Option<f64>,
 }
 
 /// A vehicle, a trip, or a flow of them.
@@ -270,7 +273,8 @@ impl Reader<'_> {
     }
 
     fn stop(&mut self, element: &Element) -> Result<(), XmlError> {
-        let [stop, lane, end, duration] = element.values(["busStop", "lane", "endPos", "duration"])?;
+        let [stop, lane, end] = element.values(["busStop", "lane", "endPos"])?;
+        let [duration, until] = element.values(["duration", "until"])?;
         let at = match stop {
             Some(id) => Ok(id.into_owned()),
             None => {
@@ -278,7 +282,8 @@ impl Reader<'_> {
             }
         };
         let duration_s = duration.and_then(|it| seconds(&it)).unwrap_or(0.0);
-        let stop = StopElement { line: element.line, at, duration_s };
+        let until_s = until.and_then(|it| seconds(&it)).filter(|it| *it >= 0.0);
+        let stop = StopElement { line: element.line, at, duration_s, until_s };
         match (&mut self.vehicle, &mut self.route) {
             (Some(vehicle), _) => vehicle.stops.push(stop),
             (None, Some((_, route))) => route.stops.push(stop),

@@ -13,8 +13,11 @@ use super::schedule::{Schedule, Wrong};
 /// An end of trips: its way, the name of a class, and the place along the last edge in millimetres.
 type End = (Vec<String>, &'static str, Option<i64>);
 
-/// An origin, a destination, and stops, each with its time in milliseconds.
-type Served = (usize, usize, Vec<(usize, i64)>);
+/// An origin, a destination, and stops, each with its times in milliseconds.
+type Served = (usize, usize, Vec<(usize, [Option<i64>; 2])>);
+
+/// A place where a vehicle rests, how long, and until when at least [s].
+pub(super) type Rest = (InnerPlace, f64, Option<f64>);
 
 /// A schedule that grows.
 #[derive(Default)]
@@ -99,15 +102,21 @@ impl Growing {
         &mut self,
         name: &str,
         (origin, destination, class): (usize, usize, Class),
-        stops: Vec<(InnerPlace, f64)>,
+        stops: Vec<Rest>,
     ) -> Option<usize> {
         const NEVER: Departures = Departures { first_s: 0.0, every_s: Departures::SHORTEST, until_s: -1.0 };
         if stops.is_empty() {
             return None;
         }
-        let stop = |(inner, rest_s)| LineStop { destination: self.stop(inner, destination), rest_s };
+        let stop = |(inner, rest_s, until_s)| LineStop {
+            destination: self.stop(inner, destination),
+            rest_s,
+            until_s,
+        };
         let stops: Vec<LineStop> = stops.into_iter().map(stop).collect();
-        let named = |it: &LineStop| (it.destination, (it.rest_s * 1000.0).round() as i64);
+        let milliseconds = |it: f64| (it * 1000.0).round() as i64;
+        let named =
+            |it: &LineStop| (it.destination, [Some(it.rest_s), it.until_s].map(|it| it.map(milliseconds)));
         let key = (origin, destination, stops.iter().map(named).collect());
         let number = self.schedule.lines.len();
         if let Some(known) = self.served.get(&key) {

@@ -95,16 +95,32 @@ pub(crate) fn open(path: &Path) -> Result<Scenario, Fault> {
 /// Longer steps of SUMO become this one [s]: drivers who react need shorter ones; ours.
 const LONGEST_STEP: f64 = 0.1;
 
-/// The net `map` with the programs of lights in the additional files.
+/// The net `map` with the programs of lights in its other files.
 ///
 /// # Errors
 /// If a file cannot be read.
 pub(crate) fn with_programs(mut map: Map, sumo: &Sumo) -> Result<Map, Fault> {
-    for path in &sumo.additional {
-        let bytes = read_file(path, path.display().to_string())?;
-        laneweave_maps::sumo::add_programs(&mut map, &bytes).map_err(|error| broken(path, &error))?;
+    for path in sumo.additional.iter().chain(&sumo.routes) {
+        add_programs(path, path.display().to_string(), &mut map, DEEPEST)?;
     }
     Ok(map)
+}
+
+/// Gives the lights of `map` the programs in the file at `path`, and in the files that it includes.
+fn add_programs(path: &Path, place: String, map: &mut Map, depth: usize) -> Result<(), Fault> {
+    let deeper = deeper(&place, depth)?;
+    let bytes = read_file(path, place)?;
+    // Most files have none, and are large.
+    let has = |tag: &str| bytes.windows(tag.len()).any(|it| it == tag.as_bytes());
+    if has("<tlLogic") {
+        laneweave_maps::sumo::add_programs(map, &bytes).map_err(|error| broken(path, &error))?;
+    }
+    if has("<include") {
+        for (file, place) in included(path, &bytes, &mut Elements::default())? {
+            add_programs(&file, place, map, deeper)?;
+        }
+    }
+    Ok(())
 }
 
 /// The vehicles of a scenario.
@@ -213,17 +229,26 @@ const BASE: &str = "conservative";
 
 /// Adds what the file at `path` says, and the files that it includes.
 fn add(path: &Path, place: String, elements: &mut Elements, depth: usize) -> Result<(), Fault> {
-    let Some(deeper) = depth.checked_sub(1) else {
-        let what = "files include each other without end";
-        return Err(Fault::new(place, what, "remove one of the <include>"));
-    };
+    let deeper = deeper(&place, depth)?;
     let bytes = read_file(path, place)?;
-    let included = elements::read(&bytes, file_name(path), elements).map_err(|error| broken(path, &error))?;
-    for (file, line) in included {
-        let place = format!("{}:{line}", path.display());
-        add(&path.parent().unwrap_or(Path::new("")).join(file), place, elements, deeper)?;
+    for (file, place) in included(path, &bytes, elements)? {
+        add(&file, place, elements, deeper)?;
     }
     Ok(())
+}
+
+/// How deep files may include others that are named at `place`.
+fn deeper(place: &str, depth: usize) -> Result<usize, Fault> {
+    let what = "files include each other without end";
+    depth.checked_sub(1).ok_or_else(|| Fault::new(place, what, "remove one of the <include>"))
+}
+
+/// Adds what the file at `path` says. Returns the files that it includes, with the places where it does.
+fn included(path: &Path, bytes: &[u8], elements: &mut Elements) -> Result<Vec<(PathBuf, String)>, Fault> {
+    let included = elements::read(bytes, file_name(path), elements).map_err(|error| broken(path, &error))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let named = |(file, line): (String, usize)| (folder.join(file), format!("{}:{line}", path.display()));
+    Ok(included.into_iter().map(named).collect())
 }
 
 /// The name of the file at `path`.

@@ -4,20 +4,19 @@ use std::collections::BTreeMap;
 
 use laneweave_maps::Unused;
 use laneweave_network::Class;
-use laneweave_sim::{
-    Demand, Departure, Fleet, Headways, InnerPlace, Line, Origin, Place, Purpose, Random, Rate, Share,
-};
+use laneweave_sim::{Demand, Departure, Fleet, Headways, Line, Origin, Place, Purpose, Random, Rate, Share};
 
 use super::edges::Edges;
 use super::elements::{Elements, Rhythm, RouteElement, StopElement, TypeElement, VehicleElement, Way, When};
-use super::growing::Growing;
+use super::growing::{Growing, Rest};
 use crate::style::StyleTemplate;
 
 const SECONDS_PER_HOUR: f64 = 3600.0;
 /// The type of vehicles that name none.
 pub(super) const USUAL_TYPE: &str = "DEFAULT_VEHTYPE";
-/// Departures of one flow, at most.
+/// Departures of one flow, and of all vehicles, at most.
 const MOST_OF_A_FLOW: usize = 1_000_000;
+const MOST_IN_ALL: usize = 2_000_000;
 
 /// Departures with the places between which they lead.
 #[derive(Clone, Debug, Default)]
@@ -83,6 +82,11 @@ impl Scheduler<'_> {
                 }
             };
             for (time, place) in times.into_iter().zip(0..) {
+                if growing.schedule.departures.len() == MOST_IN_ALL {
+                    let what = "vehicles beyond the first two million departures".to_owned();
+                    growing.leave_out(self.elements, vehicle, (what, "simulate a shorter time"));
+                    break;
+                }
                 let id = match vehicle.when {
                     When::Flow(..) => format!("{}.{place}", vehicle.id),
                     _ => vehicle.id.clone(),
@@ -183,18 +187,24 @@ impl Scheduler<'_> {
                 "leave it so",
             )
         })?;
-        let (edges, is_fixed, of_route) = self.way(vehicle, subject)?;
+        let Found { edges, is_fixed, stops } = self.way(vehicle, subject, class)?;
         let [_, _, speed, arrival] = &vehicle.ends;
         let is_passed = speed.as_deref().is_some_and(|it| laneweave_maps::xml::number(it) != 0.0);
         let at = arrival.as_deref().map(laneweave_maps::xml::number).filter(|it| it.is_finite());
         let origin = growing.origin(&self.edges, &edges[0], (class, is_passed))?;
         let destination = growing.destination(&self.edges, edges, class, (is_fixed, at))?;
         let style = self.styles.as_ref().map(|it| it.get(&kind).copied().unwrap_or(0));
-        let stops = self.stops(vehicle, of_route.iter().chain(&vehicle.stops), class, growing);
+        // The times of stops count from the departure in a route, and from that of the first vehicle in a flow.
+        let first = if let When::Flow([begin, _], _) = vehicle.when { begin } else { time };
+        let shifted =
+            stops.iter().map(|it| (it, time)).chain(vehicle.stops.iter().map(|it| (it, time - first)));
+        let stops = self.stops(vehicle, shifted, class, growing);
         let line = growing.line(&vehicle.id, (origin, destination, class), stops);
         self.name_unused(vehicle, growing);
         let time_s = time - self.begin_s;
-        growing.schedule.departures.push(Departure { name, time_s, origin, destination, line, class, style });
+        let length_m = of_kind.length_m();
+        let departure = Departure { name, time_s, origin, destination, line, class, length_m, style };
+        growing.schedule.departures.push(departure);
         Ok(())
     }
 
@@ -203,7 +213,6 @@ impl Scheduler<'_> {
         let [lane, position, ..] = &vehicle.ends;
         let is_number = |it: &String| it.trim().parse::<u32>().is_ok();
         let is_elsewhere = |it: &String| !matches!(it.as_str(), "base" | "0" | "0.0" | "0.00");
-        let is_over = matches!(&vehicle.way, Way::Between(edges) if edges.len() > 2);
         let unused = [
             (
                 lane.as_ref().is_some_and(is_number),
@@ -215,7 +224,6 @@ impl Scheduler<'_> {
                 "departPos",
                 "they start at the begin of their edge",
             ),
-            (is_over, "via", "they take the fastest way"),
         ];
         for (_, what, instead) in unused.into_iter().filter(|it| it.0) {
             let id = self.elements.in_file(&vehicle.id, vehicle.file);
@@ -224,14 +232,15 @@ impl Scheduler<'_> {
         }
     }
 
-    /// Where a vehicle of a class stops, and for how long [s].
+    /// Where a vehicle of a class stops, for how long, and until when [s]. Each of its `stops` has the time from which
+    /// it counts [s].
     fn stops<'a>(
         &self,
         vehicle: &VehicleElement,
-        stops: impl Iterator<Item = &'a StopElement>,
+        stops: impl Iterator<Item = (&'a StopElement, f64)>,
         class: Class,
         growing: &mut Growing,
-    ) -> Vec<(InnerPlace, f64)> {
+    ) -> Vec<Rest> {
         let place = |stop: &StopElement| {
             let place = match &stop.at {
                 Ok(id) => self.elements.bus_stops.get(id)?,
@@ -240,9 +249,12 @@ impl Scheduler<'_> {
             self.edges.stop(&place.lane, place.end_m, class)
         };
         let mut found = Vec::new();
-        for stop in stops {
+        for (stop, from) in stops {
             match place(stop) {
-                Some(inner) => found.push((inner, stop.duration_s)),
+                Some(inner) => {
+                    let until = stop.until_s.map(|it| (it + from - self.begin_s).max(0.0));
+                    found.push((inner, stop.duration_s, until));
+                }
                 None => {
                     let what = format!("stops at which a {} cannot rest", class.body().name);
                     let meaning = ("they are not served", "place them in a lane, outside of junctions");
@@ -262,19 +274,20 @@ impl Scheduler<'_> {
         drawn.unwrap_or(named).to_owned()
     }
 
-    /// The edges of a vehicle's way, whether it keeps to them, and the stops of its route.
+    /// The way of a vehicle of a class.
     fn way<'a>(
         &'a self,
         vehicle: &'a VehicleElement,
         subject: u32,
-    ) -> Result<(Vec<String>, bool, &'a [StopElement]), Wrong> {
+        class: Class,
+    ) -> Result<Found<'a>, Wrong> {
         let (edges, is_fixed, stops) = match &vehicle.way {
             Way::Along(route) => (&route.edges, true, &route.stops[..]),
             Way::Named(name) => {
                 let route = self.route(name, subject)?;
                 (&route.edges, true, &route.stops[..])
             }
-            Way::Between(edges) => (edges, false, &[][..]),
+            Way::Between(edges) => (edges, edges.len() > 2, &[][..]),
         };
         if edges.is_empty() {
             return Err(("vehicles without a way".into(), "give them a route, or from and to"));
@@ -282,7 +295,13 @@ impl Scheduler<'_> {
         if edges.iter().any(|it| !self.edges.has(it)) {
             return Err(("vehicles whose edges are not in the net".into(), "correct their routes"));
         }
-        Ok((edges.clone(), is_fixed, stops))
+        if !(is_fixed && matches!(vehicle.way, Way::Between(_))) {
+            return Ok(Found { edges: edges.clone(), is_fixed, stops });
+        }
+        let over = self.edges.fastest_over(edges, class);
+        let wrong =
+            || ("vehicles that cannot get from one edge of their via to the next".into(), "correct it");
+        Ok(Found { edges: over.ok_or_else(wrong)?, is_fixed, stops })
     }
 
     fn route(&self, name: &str, subject: u32) -> Result<&RouteElement, Wrong> {
@@ -291,6 +310,15 @@ impl Scheduler<'_> {
         let found = self.elements.routes.get(drawn.unwrap_or(name));
         found.ok_or_else(|| ("vehicles whose route there is not".into(), "add the route"))
     }
+}
+
+/// The way of a vehicle.
+struct Found<'a> {
+    edges: Vec<String>,
+    /// It keeps to them.
+    is_fixed: bool,
+    /// The stops of its route.
+    stops: &'a [StopElement],
 }
 
 /// The member of a distribution that `chance` draws.

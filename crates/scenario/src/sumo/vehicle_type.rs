@@ -1,14 +1,15 @@
 //! Types of vehicles of SUMO as drivers: their car-following model and speed factor; all else is that of a conservative
 //! driver.
 
-use laneweave_sim::Class;
+use laneweave_sim::{Class, Departure};
 use toml::{Table, Value};
 
 use super::elements::TypeElement;
 
 /// Attributes of a type that are used, or only say how its vehicles look.
-const KNOWN: [&str; 18] = [
+const KNOWN: [&str; 19] = [
     "id",
+    "length",
     "vClass",
     "accel",
     "decel",
@@ -75,6 +76,20 @@ impl TypeElement {
     /// Its class; `None` if it has no counterpart.
     pub(super) fn class(&self) -> Option<Class> {
         class(self.class_name())
+    }
+
+    /// Length of its vehicles [m], at most that of the longest ones that drive here; SUMO's, if it gives none.
+    pub(super) fn length_m(&self) -> Option<f64> {
+        let usual = match self.class_name() {
+            "truck" => 7.1,
+            "motorcycle" => 2.2,
+            "moped" => 2.1,
+            "delivery" | "emergency" => 6.5,
+            "bus" | "coach" | "trailer" => *Departure::LENGTHS.end(),
+            _ => 5.0,
+        };
+        let length = self.number("length", usual);
+        length.is_finite().then(|| length.clamp(*Departure::LENGTHS.start(), *Departure::LENGTHS.end()))
     }
 
     /// Attributes that are not used, and what is meant by a model that has no counterpart.

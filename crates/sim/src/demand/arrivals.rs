@@ -167,6 +167,7 @@ impl Arrivals {
                 id,
                 time: due.time_s,
                 class: due.class,
+                length: due.length_m.unwrap_or(due.class.body().length),
                 parameters,
                 destination: scene.navigator.seen_by(due.class, Some(goal)),
                 is_through_town: false,
@@ -192,8 +193,9 @@ impl Arrivals {
                 let destination = scene.navigator.seen_by(line.class, Some(line.goal(0)));
                 let (class, is_through_town) = (line.class, false);
                 let line = Some(number);
+                let (time, length) = (came, class.body().length);
                 let arrival =
-                    Arrival { id, time: came, class, parameters, destination, is_through_town, line };
+                    Arrival { id, time, class, length, parameters, destination, is_through_town, line };
                 sources[origin].join(scene, arrival);
                 (*next_id, count.departed) = (id + 1, count.departed + 1);
             }

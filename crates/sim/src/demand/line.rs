@@ -26,6 +26,8 @@ pub struct LineStop {
     pub destination: usize,
     /// Time for which a vehicle rests there [s].
     pub rest_s: f64,
+    /// It does not go on before this time [s]; `None`: whenever it has rested.
+    pub until_s: Option<f64>,
 }
 
 impl LineStop {

@@ -34,6 +34,8 @@ pub(crate) struct Arrival {
     /// Time of arrival [s].
     pub(crate) time: f64,
     pub(crate) class: Class,
+    /// [m].
+    pub(crate) length: f64,
     pub(crate) parameters: u32,
     pub(crate) destination: Destination,
     /// Its route leads through the town core, which may be full.
@@ -284,7 +286,8 @@ impl Source {
         let destinations = &self.destinations[navigator.restriction_of(class)];
         let wanted = uniform(Purpose::Destination) * destinations.last().map_or(0.0, |it| it.1);
         let destination = destinations.iter().find(|it| wanted < it.1).and_then(|it| it.0);
-        Arrival { id, time, class, parameters, destination, is_through_town: false, line: None }
+        let (length, line) = (class.body().length, None);
+        Arrival { id, time, class, length, parameters, destination, is_through_town: false, line }
     }
 
     /// The lane in which a driver queues, among those that its class may use. First: fewest lane changes, if they have

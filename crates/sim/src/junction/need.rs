@@ -7,8 +7,6 @@ use crate::junction::waiting_priority::ZoneReservation;
 
 /// Storage space that a vehicle needs beyond the zones, in addition to its length [m] (ours).
 pub(crate) const SPARE_SPACE: f64 = 2.0;
-/// Smaller differences of distances are rounding errors [m].
-pub(crate) const ROUNDING: f64 = 0.5;
 /// A line belongs to the zones that follow within this distance [m] (ours).
 pub(crate) const LINE_TO_ZONE: f64 = 30.0;
 
@@ -30,8 +28,6 @@ pub(crate) struct Survey {
     pub(crate) section: StorageSection,
     /// Where the chain of this section begins.
     pub(crate) section_start: f64,
-    /// It must not stand within the zones, so it needs storage space beyond.
-    pub(crate) needs_space: bool,
     /// Storage space that it needs there.
     pub(crate) needed: f64,
     /// Storage space that is available there.
@@ -50,7 +46,6 @@ impl Default for Survey {
             extent: 0.0,
             section: StorageSection::first_of(ChainIndex(0)),
             section_start: 0.0,
-            needs_space: true,
             needed: 0.0,
             space: 0.0,
             most: 0.0,

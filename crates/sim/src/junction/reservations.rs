@@ -3,7 +3,7 @@
 use laneweave_network::{LightIndex, Network, ZoneIndex};
 use serde::{Deserialize, Serialize};
 
-use crate::junction::need::{ROUNDING, Survey};
+use crate::junction::need::Survey;
 use crate::junction::roundabouts::Roundabouts;
 use crate::junction::storage_section::{Numbers, StorageSection};
 use crate::junction::waiting_priority::WaitingTurn;
@@ -211,9 +211,6 @@ impl Reservations {
             self.queues[hold.zone.at()].push(Holder { slot, side: hold.side });
         }
         reservation.lights.extend(survey.lights.iter().map(|(light, at)| (*light, base + at)));
-        if !survey.needs_space {
-            return slot;
-        }
         // Where it kept space before, it no longer stops.
         for space in reservation.kept_spaces.drain(..) {
             self.kept[space.on] -= space.length;
@@ -339,23 +336,16 @@ impl Reservation {
         self.speed < STANDSTILL && self.across(hold).is_some_and(|it| it.enter < self.travelled)
     }
 
-    /// Whether it leads its vehicle out of the zone that `hold` is about.
-    pub(crate) fn leads_out_of(&self, hold: &ZoneReservation) -> bool {
-        self.across(hold).is_none_or(|it| self.extent >= it.leave - ROUNDING)
-    }
-
     /// The length of it that remains in front of the vehicle [m].
     pub(crate) fn left(&self) -> f64 {
         self.extent - self.travelled
     }
 
-    /// The length of it that remains in front of the vehicle [m], whatever the lights show that are more than `after`
-    /// ahead [m]. Lights that stay green until the vehicle is there do not count: `is_passed` says which, by their
-    /// distances [m].
-    pub(crate) fn left_for_certain(&self, after: f64, is_passed: impl Fn(LightIndex, f64) -> bool) -> f64 {
-        let open = self.lights.iter().filter(|(light, line)| !is_passed(*light, line - self.travelled));
-        let ends = open.map(|(_, line)| self.zone_over(*line).unwrap_or(*line).min(*line) - self.travelled);
-        ends.filter(|it| *it > after.max(0.0)).fold(self.left(), f64::min)
+    /// The length of it that remains in front of the vehicle, whatever lights more than `after` ahead [m] show [m].
+    pub(crate) fn left_for_certain(&self, after: f64) -> f64 {
+        let ends = self.lights.iter().map(|(_, line)| self.zone_over(*line).unwrap_or(*line).min(*line));
+        let ends = ends.map(|it| it - self.travelled).filter(|it| *it > after.max(0.0));
+        ends.fold(self.left(), f64::min)
     }
 
     /// Where the vehicle enters the first of the zones that it has not left at the `line` of a light [m], from the

@@ -1,6 +1,6 @@
 //! What the traffic lights show: fixed programs depend on the time, actuated ones on the traffic.
 
-use laneweave_network::{ChainIndex, InPlan, Light, LightIndex, LightState, Network, Sign};
+use laneweave_network::{ChainIndex, InPlan, LightIndex, LightState, Network, Sign};
 use serde::{Deserialize, Serialize};
 
 use crate::junction::actuated_signals::Controller;
@@ -101,19 +101,6 @@ impl Signals {
         if self.shown(light) == LightState::Green { clock.step } else { self.was_green[light.at()] }
     }
 
-    /// How long a light stays green from `clock` on, whoever comes [s]: 0 if it is not green, or if that depends on
-    /// traffic, or on a user.
-    pub(crate) fn green_for(&self, network: &Network, light: LightIndex, clock: Clock) -> f64 {
-        let Light { program, plan, .. } = &network.junctions.lights[light.at()];
-        let is_changed = |it: &InPlan| it.is_actuated || self.offsets.of(*it) != it.offset;
-        let is_fixed = !plan.as_ref().is_some_and(is_changed) && self.user_set(light).is_none();
-        if is_fixed && self.shown(light) == LightState::Green {
-            program.steady_for(clock.time())
-        } else {
-            0.0
-        }
-    }
-
     fn show(&mut self, network: &Network, clock: Clock) {
         let Signals { shown, was_green, steady_until, controllers, offsets, set, .. } = self;
         for (was_green, shown) in was_green.iter_mut().zip(&*shown) {
@@ -187,35 +174,5 @@ fn detect(network: &Network, chain: ChainIndex, line: f64, distance: f64, detect
         for back in &network.chain(chain).previous {
             detect(network, *back, network.chain(*back).length, -from, detectors);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use laneweave_generate::own_maps;
-    use laneweave_maps::regulations;
-
-    use super::*;
-
-    #[test]
-    fn a_light_stays_green_until_its_program_ends_that_unless_traffic_or_a_user_decides() {
-        let (_, drawing) = own_maps().unwrap().into_iter().find(|it| it.0 == "grid.osm").unwrap();
-        let map = drawing.build().unwrap();
-        let rules = regulations(&map);
-        let mut network = map.network.regulated(&rules);
-        let clock = |step: u32| Clock { step, dt: 0.5 };
-        let shown = |network: &Network, step| Signals::new(network, clock(step));
-        let light = LightIndex(0);
-        let is_green = |step: u32| shown(&network, step).shown(light) == LightState::Green;
-        let first = (2..400).find(|it| is_green(it - 1) && !is_green(it - 2)).unwrap();
-        let last = (first..).find(|it| !is_green(it + 1)).unwrap();
-        let mut signals = shown(&network, first);
-        let steady = signals.green_for(&network, light, clock(first));
-        assert!((steady - 0.5 * f64::from(last + 1 - first)).abs() <= 0.5, "{steady} s, {first} {last}");
-        assert_eq!(shown(&network, last + 1).green_for(&network, light, clock(last + 1)), 0.0);
-        signals.set(&network, light, Some(LightState::Green), clock(first));
-        assert_eq!(signals.green_for(&network, light, clock(first)), 0.0);
-        network.junctions.lights[0].plan.as_mut().unwrap().is_actuated = true;
-        assert_eq!(shown(&network, first).green_for(&network, light, clock(first)), 0.0);
     }
 }

@@ -72,9 +72,7 @@ pub(crate) struct FirstIntoMerge {
 #[inline]
 pub(crate) fn sight(scene: &Scene, chain: ChainIndex, speed: f64) -> f64 {
     if scene.reservations.roundabouts.touches(chain) {
-        speed * speed / (2.0 * BRAKES)
-            + (EARLY_AT_A_ROUNDABOUT + scene.clock.dt) * speed
-            + NEAR_AT_A_ROUNDABOUT
+        speed * speed / (2.0 * BRAKES) + (EARLY_AT_A_ROUNDABOUT + scene.dt) * speed + NEAR_AT_A_ROUNDABOUT
     } else {
         speed * speed / (2.0 * GENTLE) + EARLY * speed + NEAR
     }
@@ -120,8 +118,7 @@ fn look_closely(scene: &Scene, spot: Spot, until: f64) -> Junction {
         let is_settled = !driver.phase.is_between_lanes();
         let may_ask = !driver.is_shadow && is_settled && junction.revokes_from.is_none() && keeps_lane;
         let is_entry = scene.reservations.roundabouts.is_entry(spot.chain);
-        let looks =
-            stop - motion.speed * scene.clock.dt < LOOKS_FROM || !is_entry || !gives_way(scene, &what);
+        let looks = stop - motion.speed * scene.dt < LOOKS_FROM || !is_entry || !gives_way(scene, &what);
         junction.asks = may_ask && looks && is_first(scene, scene.viewpoint(spot), stop);
         junction.is_held =
             matches!(what, What::Sign(Sign::Light(it)) if !lets_go(scene, it, stop, motion.speed));
@@ -295,8 +292,8 @@ fn to_revoke(scene: &Scene, reservation: &Reservation, speed: f64) -> Option<f64
     let from = zone.map_or(line, |it| line.min(it - BEFORE_REVOKED));
     let stop = zone.map_or(line, |it| line.min(it - BEFORE_A_ZONE)) - reservation.travelled;
     let left = from - reservation.travelled;
-    let slower = (speed - STOPS_AT_YELLOW * scene.clock.dt).max(0.0);
-    let is_secure = slower == 0.0 || stays_secure(speed, slower, Ahead::standing(stop), scene.clock.dt);
+    let slower = (speed - STOPS_AT_YELLOW * scene.dt).max(0.0);
+    let is_secure = slower == 0.0 || stays_secure(speed, slower, Ahead::standing(stop), scene.dt);
     (left > 0.0 && is_secure && stops_gently(speed, stop.max(0.5 * left))).then_some(from)
 }
 

@@ -10,7 +10,7 @@ use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
-use crate::right_of_way::approach::{LONG, earlier, leader_into, lets_go, opposite};
+use crate::right_of_way::approach::{LONG, leader_into, lets_go, opposite};
 use crate::right_of_way::oncoming::lag;
 use crate::right_of_way::turns::{clears, is_out_before};
 use crate::state::clock::Clock;
@@ -106,12 +106,10 @@ pub(crate) fn may_pass(
     let lacks = |spare: f64| space < (needed + spare).min(survey.most);
     let yields_room =
         || leaves_room && lacks(ROOM_FOR_ANOTHER) && survey.holds.iter().any(|it| gives_way(scene, it));
-    if survey.needs_space && needs_space(scene, survey, way) && (lacks(0.0) || yields_room()) {
+    if needs_space(scene, survey, way) && (lacks(0.0) || yields_room()) {
         return Err(PassHindrance::Space);
     }
-    if survey.holds.iter().any(|hold| is_blocked(scene, applicant, hold, asking))
-        || comes_after_one_that_may_stop(scene, applicant)
-    {
+    if survey.holds.iter().any(|hold| is_blocked(scene, applicant, hold, asking)) {
         return Err(PassHindrance::Blocked);
     }
     let waits_within = applicant.waits_within_a_zone(scene, survey.stop);
@@ -147,17 +145,6 @@ fn is_blocked(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, aski
     let is_round = scene.reservations.roundabouts.touches(applicant.from.chain);
     let stays = |other: &Reservation| other.lacks_space || is_round && other.stands_in(hold);
     zone.kind == ZoneKind::Crossing && opposite(scene, hold, asking.priority.is_long).any(stays)
-}
-
-/// Whether a vehicle that goes before the applicant through a zone that is not kept clear may have to stop within it.
-/// If the applicant went before that one through the next zone, each would wait for the other.
-fn comes_after_one_that_may_stop(scene: &Scene, applicant: &Applicant) -> bool {
-    let Some(own) = applicant.reservation else { return false };
-    let is_kept_clear = |it: &ZoneReservation| scene.network.junctions.zones[it.zone.at()].is_kept_clear;
-    own.holds
-        .iter()
-        .filter(|it| !is_kept_clear(it))
-        .any(|hold| earlier(scene, own, hold).any(|other| !other.leads_out_of(hold)))
 }
 
 /// Whether the applicant may have one of the zones. Without it, it may have to stand where it `waits_within` a zone.

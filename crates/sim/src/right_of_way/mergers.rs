@@ -3,12 +3,12 @@
 
 use laneweave_network::ZoneKind;
 
-use crate::junction::need::ROUNDING;
 use crate::junction::need::Survey;
 use crate::junction::reservations::Reservation;
 use crate::junction::waiting_priority::ZoneReservation;
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::{LONG, earlier, leader_into, opposite};
+use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 
 /// Whether all vehicles that go before the applicant into a merge have reservations that reach as far as the

@@ -1,11 +1,10 @@
 //! The storage space for a vehicle beyond the zones.
 
-use laneweave_models::yielding::time_to_cover;
 use laneweave_network::Side;
 
-use crate::junction::need::{ROUNDING, SPARE_SPACE};
+use crate::junction::need::SPARE_SPACE;
 use crate::junction::storage_section::StorageSection;
-use crate::right_of_way::survey::{BEFORE_A_ZONE, parts};
+use crate::right_of_way::survey::{BEFORE_A_ZONE, ROUNDING, parts};
 use crate::route::walk::Leg;
 use crate::state::lane::Phase;
 use crate::state::standstill::STANDSTILL;
@@ -63,12 +62,9 @@ pub(crate) fn space(scene: &Scene, from: Viewpoint, beyond: Beyond) -> f64 {
             let reservation = scene.reservations.of(lane.lane_change_states()[index].reservation, motion.id);
             // Behind a vehicle that stops for a light at the same place, it stops before all zones.
             let after = stop + BEFORE_A_ZONE + ROUNDING - base - motion.x;
-            let desired = f64::from(lane.drivers()[index].desired);
-            let is_passed =
-                |light, ahead| scene.stays_green(light, time_to_cover(ahead, motion.speed, desired));
             // Whoever stands although it may go waits for somebody who may stand for long.
             let goes = reservation.filter(|_| motion.speed >= STANDSTILL);
-            let gets_to = rear + goes.map_or(0.0, |it| it.left_for_certain(after, is_passed).max(0.0));
+            let gets_to = rear + goes.map_or(0.0, |it| it.left_for_certain(after).max(0.0));
             if rear >= clear {
                 // A vehicle whose reservation leads beyond the storage space does not stop in it.
                 if gets_to < limit {

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use laneweave_network::{ChainIndex, Class, Crossing, LightIndex, Place, PlaceKind, Sign, ZoneIndex};
+use laneweave_network::{ChainIndex, Class, Crossing, LightIndex, Place, PlaceKind, Sign};
 
 use crate::junction::need::{LINE_TO_ZONE, SPARE_SPACE, Survey};
 use crate::junction::storage_section::StorageSection;
@@ -189,13 +189,10 @@ pub(crate) fn survey(
     out.has_stop_sign = false;
     let mut first: Option<f64> = None;
     let mut ends = false;
-    // The end of the zones within which it must not stand, and that of all zones.
     let mut clear = f64::NEG_INFINITY;
-    let mut passed = f64::NEG_INFINITY;
     // The last place within the reservation: the vehicle no longer stops there.
     let mut last = f64::NEG_INFINITY;
     let mut next_stop = f64::INFINITY;
-    let mut next = f64::INFINITY;
     // As far as the vehicle needs storage space: zones may be longer than the sight.
     let far = Cell::new(until + SPACE_SIGHT);
     let way_end = points(scene, from, &far, |point, at, _| {
@@ -208,15 +205,9 @@ pub(crate) fn survey(
         let start = *first.get_or_insert(point.stop);
         let is_apart = match point.what {
             _ if clear > f64::NEG_INFINITY => point.stop - ROOM_AT_A_STOP >= clear + length + SPARE_SPACE,
-            _ if passed > f64::NEG_INFINITY => {
-                let is_beyond = point.stop - ROOM_AT_A_STOP >= last && !joins(scene, &out.holds, point.what);
-                // Nobody has a zone before the vehicle ahead of it has.
-                is_beyond || at > shield(scene, from, at)
-            }
             _ => point.stop > start + LINE_TO_ZONE,
         };
         if is_apart {
-            next = at;
             next_stop = point.stop - ROOM_AT_A_STOP;
             return ControlFlow::Break(());
         }
@@ -235,12 +226,8 @@ pub(crate) fn survey(
                 let leave = merge.unwrap_or(end + length);
                 let Crossing { zone, side } = crossing;
                 out.holds.push(ZoneReservation { zone, side, enter: at, leave });
-                let end = end.min(merge.unwrap_or(f64::INFINITY));
-                passed = passed.max(end);
-                if scene.network.junctions.zones[zone.at()].is_kept_clear {
-                    clear = clear.max(end);
-                    far.set(far.get().max(clear + length + SPACE_SIGHT));
-                }
+                clear = clear.max(end.min(merge.unwrap_or(f64::INFINITY)));
+                far.set(far.get().max(clear + length + SPACE_SIGHT));
             }
         }
         ControlFlow::Continue(())
@@ -252,30 +239,12 @@ pub(crate) fn survey(
         out.extent = f64::NEG_INFINITY;
         return true;
     }
-    out.needs_space = clear > f64::NEG_INFINITY || passed == f64::NEG_INFINITY;
-    out.needed = length + SPARE_SPACE;
-    if !out.needs_space {
-        out.extent = (passed + length).min(next - PAST_A_PLACE).max(last + PAST_A_PLACE);
-        let beyond = chain_at(scene, from, passed);
-        out.section = StorageSection::at(&scene.network.junctions, beyond.chain, passed - beyond.start);
-        out.section_start = beyond.start;
-        return true;
-    }
     let clear = if clear > f64::NEG_INFINITY { clear } else { start + BEFORE_A_ZONE };
     out.extent = (clear + length).max(last + PAST_A_PLACE);
+    out.needed = length + SPARE_SPACE;
     let limit = if next_stop < f64::INFINITY || way_end >= far.get() { next_stop } else { way_end };
     note_storage(scene, applicant, [clear, limit], out);
     true
-}
-
-/// Whether a place is a zone of the same two chains as one of those that the applicant needs, which pass all of them in
-/// one order.
-fn joins(scene: &Scene, holds: &[ZoneReservation], what: What) -> bool {
-    let chains = |zone: ZoneIndex| scene.network.junctions.zones[zone.at()].sides.map(|it| it.chain);
-    match what {
-        What::Zone(crossing, ..) => holds.iter().any(|it| chains(it.zone) == chains(crossing.zone)),
-        What::Sign(_) => false,
-    }
 }
 
 /// Notes the storage section of the applicant after its reservation, and the space there. All zones end `clear` ahead
@@ -331,6 +300,9 @@ fn next_place(scene: &Scene, leg: Leg, distance: f64, class: Class) -> f64 {
     let stops = places.filter(|it| concerns(it, class)).map(|it| leg.start + Point::of(it, 0.0).stop);
     stops.filter(|it| *it > distance).fold(f64::INFINITY, f64::min)
 }
+
+/// Smaller differences of distances are rounding errors [m].
+pub(crate) const ROUNDING: f64 = 0.5;
 
 /// Where the vehicle at `spot`, whose chain begins `base` ahead, leaves the route of the vehicle at `from` [m];
 /// infinite if it does not leave it.

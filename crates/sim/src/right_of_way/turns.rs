@@ -12,6 +12,7 @@ use crate::junction::waiting_priority::WaitingTurn;
 use crate::junction::waiting_priority::{WaitingPriority, ZoneReservation};
 use crate::right_of_way::applicant::Applicant;
 use crate::right_of_way::approach::opposite;
+use crate::right_of_way::survey::ROUNDING;
 use crate::view::scene::Scene;
 
 /// An earlier vehicle on the other side may occupy a crossing until this long after the applicant could reach it [s]
@@ -75,14 +76,12 @@ fn arrival(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation) -> f64 
     }
 }
 
-/// Time until `other` no longer blocks the applicant on the other side of a zone [s]. It is infinite if its
-/// reservation does not lead it out of a zone in which it may stop: at a roundabout, where reservations are returned in
-/// part, and where the zone is not kept clear.
+/// Time until `other` no longer blocks the applicant on the other side of a zone [s]. At a roundabout, where
+/// reservations are returned in part, it is infinite if its reservation does not lead it out of the zone.
 fn clearance(scene: &Scene, applicant: &Applicant, hold: &ZoneReservation, other: &Reservation) -> f64 {
-    let may_stop = scene.reservations.roundabouts.touches(applicant.from.chain)
-        || !scene.network.junctions.zones[hold.zone.at()].is_kept_clear;
+    let is_round = scene.reservations.roundabouts.touches(applicant.from.chain);
     other.across(hold).map_or(0.0, |it| {
-        if may_stop && !other.leads_out_of(hold) {
+        if is_round && other.extent < it.leave - ROUNDING {
             return f64::INFINITY;
         }
         let distance = departure(scene, it, other.length) - other.travelled;

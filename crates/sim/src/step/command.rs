@@ -39,8 +39,8 @@ impl World {
         self.forget_index();
         let World { roads, traffic, arrivals, log, .. } = self;
         let id = arrivals.new_inserted();
-        let now = traffic.clock().time();
-        put(roads, traffic, log, placement, Named { id, arrived: now, line: None });
+        let (now, length) = (traffic.clock().time(), placement.class.body().length);
+        put(roads, traffic, log, placement, Named { id, arrived: now, length, line: None });
         Ok(id)
     }
 

@@ -79,7 +79,8 @@ impl Entering<'_> {
         if let Some(vehicle) = admitted
             && let Some(arrival) = queue.waiting.remove(place)
         {
-            let named = Named { id: arrival.id, arrived: arrival.time, line: arrival.line };
+            let Arrival { id, time: arrived, length, line, .. } = arrival;
+            let named = Named { id, arrived, length, line };
             put(self.roads, self.traffic, self.log, vehicle, named);
             if matches!(needs, Entry::Reserved { .. }) {
                 reserve(self.traffic, self.junctions.reservations_mut(), queue, &arrival, survey);
@@ -98,10 +99,9 @@ fn admit(scene: &Scene, dt: f64, queue: &Queue, arrival: &Arrival, needs: Entry)
         Entry::Free => (0.0, None),
         Entry::Reserved { until, ahead } => (until, ahead),
     };
-    let Arrival { class, parameters, destination, .. } = *arrival;
+    let Arrival { class, length, parameters, destination, .. } = *arrival;
     let chain = queue.chain;
     let rear = queue.start.station();
-    let length = class.body().length;
     let x = rear + length;
     let style = &scene.driver_parameters[parameters as usize];
     let from = scene.viewpoint_at(applicant(scene, queue, arrival).from, chain, rear);

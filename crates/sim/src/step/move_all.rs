@@ -42,7 +42,7 @@ pub(crate) fn move_all(
                 navigator,
                 lanes,
                 driver_parameters,
-                clock,
+                dt: clock.dt,
                 reservations,
                 signals,
                 externals,

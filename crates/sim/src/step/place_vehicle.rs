@@ -18,8 +18,8 @@ impl World {
         let World { roads, traffic, arrivals, log, .. } = self;
         check_new(roads, arrivals.demand().destinations.len(), &vehicle)?;
         let id = arrivals.new_id();
-        let now = traffic.clock().time();
-        put(roads, traffic, log, vehicle, Named { id, arrived: now, line: None });
+        let (now, length) = (traffic.clock().time(), vehicle.class.body().length);
+        put(roads, traffic, log, vehicle, Named { id, arrived: now, length, line: None });
         Ok(id)
     }
 }

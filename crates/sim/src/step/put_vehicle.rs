@@ -18,12 +18,14 @@ use crate::state::setup::Placement;
 use crate::state::traffic::Traffic;
 use laneweave_network::Position;
 
-/// The id and the arrival of a vehicle.
+/// The id and the arrival of a vehicle, and what else the demand says of it.
 #[derive(Clone, Copy)]
 pub(crate) struct Named {
     pub(crate) id: VehicleId,
     /// Time of its arrival [s].
     pub(crate) arrived: f64,
+    /// Length [m].
+    pub(crate) length: f64,
     /// The line that it serves.
     pub(crate) line: Option<u16>,
 }
@@ -34,7 +36,7 @@ pub(crate) fn put(
     traffic: &mut Traffic,
     log: &mut Log,
     vehicle: Placement,
-    Named { id, arrived, line }: Named,
+    Named { id, arrived, length, line }: Named,
 ) {
     let Placement { chain, x, speed, class, parameters, destination } = vehicle;
     let (network, navigator, clock) = (roads.network(), roads.navigator(), traffic.clock());
@@ -54,7 +56,9 @@ pub(crate) fn put(
         mark: Mark { x, time: clock.time() },
         ..TripRecord::of(id, class, parameters)
     });
-    traffic.enter(chain, entry(roads, clock, &Placement { destination, ..vehicle }, id));
+    let mut new = entry(roads, clock, &Placement { destination, ..vehicle }, id);
+    new.motion.length = length as f32;
+    traffic.enter(chain, new);
     if let Some(line) = line {
         let kind = Kind::Line(Service { line, stops: 0, rests_until: None });
         traffic.externals_mut().add(External { kind, ..External::new(id, Control::DRIVER, at) });

@@ -39,14 +39,14 @@ pub(crate) enum Entry {
 
 /// The vehicle of `arrival` as an applicant that waits before the lane of `queue`.
 pub(crate) fn applicant<'a>(scene: &Scene<'a>, queue: &Queue, arrival: &Arrival) -> Applicant<'a> {
-    let Arrival { id, class, parameters, destination, .. } = *arrival;
+    let Arrival { id, class, length, parameters, destination, .. } = *arrival;
     let style = &scene.driver_parameters[parameters as usize];
     let Scene { network, navigator, .. } = *scene;
     let outlook = Outlook { network, navigator, style, class, destination };
     let desired = outlook.fitting_speed(Position::new(queue.chain, 0.0), 0.0);
     let x = queue.start.station() - WAITS_BEFORE;
     let from = Viewpoint { chain: queue.chain, x, ahead: 0, id, destination, class };
-    Applicant { from, length: class.body().length, speed: desired, desired, style, reservation: None }
+    Applicant { from, length, speed: desired, desired, style, reservation: None }
 }
 
 /// What `arrival` needs to enter the lane of `queue` now.
@@ -57,7 +57,7 @@ pub(crate) fn entry(
     clock: Clock,
     out: &mut Survey,
 ) -> Entry {
-    let length = arrival.class.body().length;
+    let length = arrival.length;
     let reach = WAITS_BEFORE + length + STANDS_BEFORE_A_ZONE;
     let [first_place, _] = scene.network.junctions.places(queue.chain);
     if queue.start != Start::Driving(0.0) || first_place > reach {
@@ -114,7 +114,7 @@ pub(crate) fn reserve(
     arrival: &Arrival,
     out: &Survey,
 ) {
-    let (step, length) = (traffic.clock().step, arrival.class.body().length);
+    let (step, length) = (traffic.clock().step, arrival.length);
     let lane = traffic.lane_mut(queue.chain);
     let Some(index) = lane.find(arrival.id, length) else { return };
     let (motion, driver, lane_change) = lane.entry_mut(index);

@@ -105,7 +105,9 @@ fn carry_on(carrying_out: &mut CarryingOut, id: VehicleId, service: Service, nex
         Next::Rests => {
             let demand = carrying_out.arrivals.demand();
             let stop = &demand.lines[usize::from(service.line)].stops[usize::from(service.stops)];
-            let rests_until = Some(clock.step + clock.steps(stop.rest_s));
+            let has_rested = clock.step + clock.steps(stop.rest_s);
+            let goes_on = stop.until_s.map_or(0, |it| (it / clock.dt).ceil() as u32);
+            let rests_until = Some(has_rested.max(goes_on));
             let rests = Control::Drive { longitudinal: Longitudinal::Speed(0.0), lateral: Lateral::Keep };
             carrying_out.direct(id, Service { rests_until, ..service }, rests);
         }

@@ -14,7 +14,6 @@ use crate::route::fitting_speed::Outlook;
 use crate::route::navigate::Navigator;
 use crate::route::roads::Roads;
 use crate::route::walk::{Leg, Walk};
-use crate::state::clock::Clock;
 use crate::state::externals::Externals;
 use crate::state::goal::Destination;
 use crate::state::lane::{DriverState, Kinematics, Lane, LaneChangeState, VehicleId};
@@ -33,8 +32,8 @@ pub struct Scene<'a> {
     pub lanes: &'a [Lane],
     /// The table of driver parameters, to which vehicles refer.
     pub driver_parameters: &'a [Style],
-    /// The present step.
-    pub(crate) clock: Clock,
+    /// How long a step is [s].
+    pub(crate) dt: f64,
     /// The reservations at junctions.
     pub reservations: &'a Reservations,
     /// What the lights show.
@@ -103,7 +102,7 @@ impl<'a> Scene<'a> {
             navigator: roads.navigator(),
             lanes: traffic.lanes(),
             driver_parameters: roads.driver_parameters(),
-            clock: traffic.clock(),
+            dt: traffic.clock().dt,
             reservations: junctions.reservations(),
             signals: junctions.signals(),
             externals: traffic.externals(),
@@ -152,11 +151,6 @@ impl<'a> Scene<'a> {
     #[inline]
     pub fn light(&self, light: LightIndex) -> LightState {
         self.signals.shown(light)
-    }
-
-    /// Whether a light stays green for this long [s], whoever comes.
-    pub(crate) fn stays_green(&self, light: LightIndex, duration: f64) -> bool {
-        self.signals.green_for(self.network, light, self.clock) >= duration
     }
 
     /// Whether the vehicle at `spot` has a reservation that leads further than `distance` [m]. No other vehicle may go

@@ -102,18 +102,8 @@ impl Snapshot {
     ) -> Scene<'a> {
         let Snapshot { lanes, reservations, signals, externals, .. } = self;
         // A recorded instant has no seed: it is seen as it is.
-        let (errors, clock) = (None, Snapshot::CLOCK);
-        Scene {
-            network,
-            navigator,
-            lanes,
-            driver_parameters,
-            clock,
-            reservations,
-            signals,
-            externals,
-            errors,
-        }
+        let (errors, dt) = (None, Snapshot::CLOCK.dt);
+        Scene { network, navigator, lanes, driver_parameters, dt, reservations, signals, externals, errors }
     }
 
     /// Gives the driver of the vehicle whose main entry is at `spot` another desired speed [m/s].

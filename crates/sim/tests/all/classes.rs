@@ -178,7 +178,9 @@ fn with_stops_at(
         name: "7".into(),
         class: Class::Bus,
         origin: 0,
-        stops: (first..first + 5).map(|destination| LineStop { destination, rest_s: 20.0 }).collect(),
+        stops: (first..first + 5)
+            .map(|destination| LineStop { destination, rest_s: 20.0, until_s: None })
+            .collect(),
         destination: 0,
         departures: Departures { first_s: 10.0, every_s, until_s: 600.0 },
     });

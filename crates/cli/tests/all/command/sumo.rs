@@ -22,10 +22,11 @@ const ROUTES: &str = r#"<routes>
     <vehicle id="one" type="brisk" route="along" depart="110" departSpeed="max"/>
     <vehicle id="&quot;two&quot;" depart="120" departLane="best"><route edges="c b"/></vehicle>
     <trip id="free" type="cars" from="a" to="b" depart="130"/>
+    <trip id="round" type="cars" from="a" via="b" to="b" depart="135"/>
     <flow id="often" type="cars" from="c" to="b" begin="140" end="200" period="10"/>
     <vehicle id="rails" type="tram" route="along" depart="150"/>
     <vehicle id="lost" route="nowhere" depart="150"/>
-    <vehicle id="b line" type="bus" route="along" depart="160"><stop busStop="stop" duration="10"/></vehicle>
+    <vehicle id="b line" type="bus" route="along" depart="160"><stop busStop="stop" duration="10" until="220"/></vehicle>
     <person id="p" depart="0"/>
 </routes>"#;
 const ADDITIONAL: &str = r#"<additional>
@@ -47,9 +48,9 @@ fn a_configuration_runs_and_its_outputs_have_the_names_of_its_files() {
     assert_eq!(run.code(), 0, "{}", run.errors());
     let told = run.errors();
     for part in [
-        "vehicle rails in town.rou.xml (line 10): vehicles of the class \"tram\", which do not drive here, 1 in all",
-        "vehicle lost in town.rou.xml (line 11): vehicles whose route there is not, 1 in all",
-        "element p in town.rou.xml (line 13): elements <person>, 1 in all: it is not read",
+        "vehicle rails in town.rou.xml (line 11): vehicles of the class \"tram\", which do not drive here, 1 in all",
+        "vehicle lost in town.rou.xml (line 12): vehicles whose route there is not, 1 in all",
+        "element p in town.rou.xml (line 14): elements <person>, 1 in all: it is not read",
         "vType brisk in town.rou.xml (line 2): types with lcAssertive, 1 in all",
         "option of town.sumocfg (line 8): options time-to-teleport, 1 in all: it has no counterpart",
     ] {
@@ -62,12 +63,23 @@ fn a_configuration_runs_and_its_outputs_have_the_names_of_its_files() {
     );
     assert!(!told.contains("the speed limit changes by more than half"), "{told}");
     let trips = folder.read("out/tripinfo.xml");
-    for name in ["one", "&quot;two&quot;", "free", "often.0", "often.5", "b line"] {
+    for name in ["one", "&quot;two&quot;", "free", "round", "often.0", "often.5", "b line"] {
         assert_eq!(trips.matches(&format!("id=\"{name}\"")).count(), 1, "{name}: {trips}");
     }
     assert!(!trips.contains("early") && !trips.contains("often.6"));
-    assert_eq!(trips.matches("arrivalLane=\"b_0\"").count(), 10);
-    assert!(folder.read("out/fcd.xml").contains("lane=\"a_0\""));
+    // Times are those of its files, and types its own. The bus rests until its timetable lets it go.
+    let value = |id: &str, key: &str| {
+        let trip = trips.split("<tripinfo ").find(|it| it.starts_with(&format!("id=\"{id}\""))).unwrap_or("");
+        let value = trip.split(&format!(" {key}=\"")).nth(1).and_then(|it| it.split('"').next());
+        value.unwrap_or_default().to_owned()
+    };
+    let time = |id: &str, key: &str| value(id, key).parse::<f64>().unwrap_or(f64::NAN);
+    assert!((110.0..111.0).contains(&time("one", "depart")), "{trips}");
+    assert!(time("b line", "arrival") > 220.0, "{trips}");
+    assert_eq!([value("one", "vType"), value("b line", "vType")], ["brisk", "bus"]);
+    assert_eq!(trips.matches("arrivalLane=\"b_0\"").count(), 11);
+    let positions = folder.read("out/fcd.xml");
+    assert!(positions.contains("lane=\"a_0\"") && positions.contains("<timestep time=\"110.00\""));
     // The saved scenario names the same files.
     let again = folder.laneweave("run out/scenario.toml --out again");
     let hash = |text: &str| text.lines().find(|it| it.contains("state hash")).map(str::to_owned);
@@ -78,7 +90,7 @@ fn a_configuration_runs_and_its_outputs_have_the_names_of_its_files() {
 fn drivers_have_the_styles_that_are_given_in_place_of_their_types() {
     let folder = folder();
     let summary = folder.summary("town.sumocfg --style aggressive=1 --record 0");
-    assert_eq!(summary["completed"], 10);
+    assert_eq!(summary["completed"], 11);
     let text = folder.laneweave("run town.sumocfg --style aggressive=1 --record 0").text();
     assert!(text.contains("100.0 % aggressive"), "{text}");
 }

@@ -10,7 +10,6 @@
 //! * `allow` and `disallow` say who uses a lane. Lanes that none of our classes may use are left out, and named.
 //! * The `request` rows of a junction say who gives way to whom, and at which line. Where priority is from the right or
 //!   the left it follows from the shape, so that four who wait for each other go on.
-//! * Its `foes` say which movements conflict: drivers stop wherever they have to, but where others cross.
 //! * A light follows the program of its junction: of several the last one, and of actuated ones the durations of their
 //!   phases. A green that yields is a green: who gives way is said by the requests.
 //! * [An edge lies in a town if it has no motorway's type and a limit of at most 60 km/h: the format does not say.]
@@ -61,7 +60,6 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> Result<Map, MapError> {
     let lanes = lanes(&net, &mut lanelets, &mut problems);
     stand_beside(&net, &lanes, &mut lanelets);
     let movements = movement::add(&net, &lanes, &mut lanelets, &mut problems);
-    right_of_way::note_conflicts(&net, &movements, &mut lanelets);
     let mut rules = Rules::of(&lanelets);
     let programs = light::add(&net, &movements, &mut rules, &mut problems);
     right_of_way::add(&net, &movements, &mut rules);

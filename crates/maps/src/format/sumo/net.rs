@@ -1,6 +1,5 @@
 //! A net as plain data: edges with their lanes, connections, and junctions, with their lines.
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, HashSet};
 
 use laneweave_network::{Classes, Point};
@@ -115,8 +114,6 @@ pub(super) struct Request {
     pub(super) index: usize,
     /// Whether it gives way to each of the others, by their index.
     pub(super) response: Vec<bool>,
-    /// Whether it crosses or joins each of the others, by their index.
-    pub(super) foes: Vec<bool>,
     /// Whether its drivers wait within the junction.
     pub(super) waits_inside: bool,
 }
@@ -248,7 +245,7 @@ impl Reader<'_> {
     fn connection(&mut self, element: &Element) -> Result<(), XmlError> {
         let [from, from_lane, to, to_lane] = element.values(["from", "fromLane", "to", "toLane"])?;
         let [via, state, light, index] = element.values(["via", "state", "tl", "linkIndex"])?;
-        let place = |it: Option<Cow<'_, str>>| it.and_then(|it| it.trim().parse().ok());
+        let place = |it: Option<std::borrow::Cow<'_, str>>| it.and_then(|it| it.trim().parse().ok());
         let (Some(from), Some(to)) = (from, to) else {
             self.refuse(element, "it has no from or no to", "name both edges");
             return Ok(());
@@ -312,18 +309,17 @@ impl Reader<'_> {
     }
 
     fn request(&mut self, element: &Element) -> Result<(), XmlError> {
-        let [index, response, foes, inside] = element.values(["index", "response", "foes", "cont"])?;
+        let [index, response, inside] = element.values(["index", "response", "cont"])?;
         let Some(index) = index.and_then(|it| it.trim().parse().ok()) else {
             self.refuse(element, "its index is no whole number", "number the requests from 0 on");
             return Ok(());
         };
-        // The last character is that of the movement 0.
-        let flags = |it: Option<Cow<str>>| it.unwrap_or_default().chars().rev().map(|it| it == '1').collect();
+        let response = response.unwrap_or_default();
         if let Some(junction) = self.net.junctions.last_mut() {
             junction.requests.push(Request {
                 index,
-                response: flags(response),
-                foes: flags(foes),
+                // The last character is that of the movement 0.
+                response: response.chars().rev().map(|it| it == '1').collect(),
                 waits_inside: inside.is_some_and(|it| is_true(&it)),
             });
         }

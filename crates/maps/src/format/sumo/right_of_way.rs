@@ -11,36 +11,13 @@ use crate::rule::{Rule, RuleKind};
 /// Kinds of junctions where priority follows from the side from which somebody comes.
 const BY_SIDE: [&str; 2] = ["right_before_left", "left_before_right"];
 
-/// The movements of each junction, in the order of its requests.
-fn by_junction<'a>(
-    net: &'a Net,
-    movements: &'a [Movement],
-) -> impl Iterator<Item = (&'a Junction, Vec<Option<&'a Movement<'a>>>)> {
-    let by_last: HashMap<&str, &Movement> =
-        movements.iter().filter_map(|it| Some((net.lanes[it.last?].id.as_str(), it))).collect();
-    net.junctions.iter().map(move |junction| {
-        let lanes = junction.internal_lanes.iter();
-        (junction, lanes.map(|it| by_last.get(it.as_str()).copied()).collect())
-    })
-}
-
-/// Notes which movements conflict. Lanes conflict with none.
-pub(super) fn note_conflicts(net: &Net, movements: &[Movement], lanelets: &mut [Lanelet]) {
-    let first = movements.iter().map(|it| it.lanelet.at()).min().unwrap_or(lanelets.len());
-    lanelets[..first].iter_mut().for_each(|it| it.conflicting = Some(Vec::new()));
-    for (junction, of_junction) in by_junction(net, movements) {
-        for request in &junction.requests {
-            let Some(Some(movement)) = of_junction.get(request.index) else { continue };
-            let foes = request.foes.iter().zip(&of_junction).filter(|(is_foe, _)| **is_foe);
-            let foes = foes.filter_map(|(_, it)| Some(it.as_ref()?.lanelet)).collect();
-            lanelets[movement.lanelet.at()].conflicting = Some(foes);
-        }
-    }
-}
-
 /// Adds the signs and the priorities of all junctions.
 pub(super) fn add(net: &Net, movements: &[Movement], rules: &mut Rules) {
-    for (junction, of_junction) in by_junction(net, movements) {
+    let by_last: HashMap<&str, &Movement> =
+        movements.iter().filter_map(|it| Some((net.lanes[it.last?].id.as_str(), it))).collect();
+    for junction in &net.junctions {
+        let of_junction: Vec<Option<&Movement>> =
+            junction.internal_lanes.iter().map(|it| by_last.get(it.as_str()).copied()).collect();
         rules.add_signs(&of_junction);
         if !BY_SIDE.contains(&junction.kind.as_str()) {
             rules.add_priorities(junction, &of_junction);

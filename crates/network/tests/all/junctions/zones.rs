@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use laneweave_network::{ChainIndex, DrivingSide, LaneletIndex, Point, Regulations, Touch, Zone, ZoneKind};
+use laneweave_network::{ChainIndex, Point, Regulations, Touch, Zone, ZoneKind};
 use proptest::prelude::*;
 
 use crate::junctions::drawn::{Lanes, WIDTH, arc, crossing, joined, straight};
@@ -41,32 +41,6 @@ fn a_vehicle_is_crossed_from_where_its_front_enters_a_crossing_until_its_rear_ha
     let is_crossed = |rear, front| junctions.is_crossed(ChainIndex(0), [rear, front], false);
     assert!(!is_crossed(85.0, 97.0) && is_crossed(85.5, 97.5));
     assert!(is_crossed(102.5, 114.5) && !is_crossed(103.0, 115.0));
-}
-
-#[test]
-fn where_the_map_says_what_conflicts_only_the_crossings_that_it_names_are_kept_clear() {
-    let is_kept_clear = |lanes: &Lanes, conflicting: [Option<Vec<u32>>; 2]| {
-        let mut network = lanes.network(DrivingSide::Right);
-        for (lanelet, named) in network.lanelets.iter_mut().zip(conflicting) {
-            lanelet.conflicting = named.map(|it| it.into_iter().map(LaneletIndex).collect());
-        }
-        only(&network.regulated(&Regulations::default()).junctions.zones).is_kept_clear
-    };
-    let crossing = crossing(0.0);
-    assert!(is_kept_clear(&crossing, [None, None]));
-    // What one of them leaves open is not excluded.
-    assert!(is_kept_clear(&crossing, [Some(Vec::new()), None]));
-    assert!(is_kept_clear(&crossing, [Some(vec![1]), Some(Vec::new())]));
-    assert!(is_kept_clear(&crossing, [Some(Vec::new()), Some(vec![0])]));
-    assert!(!is_kept_clear(&crossing, [Some(Vec::new()), Some(Vec::new())]));
-    // Who stands where two lanes become one is not in the way of anybody who could go on.
-    let [from_the_west, from_the_south] = meeting_at(FRAC_PI_2 / 2.0);
-    let merge = Lanes::default()
-        .with(from_the_west, &[2])
-        .with(from_the_south, &[2])
-        .with(straight((0.0, 0.0), (100.0, 0.0)), &[]);
-    assert!(is_kept_clear(&merge, [None, None]));
-    assert!(!is_kept_clear(&merge, [Some(vec![1]), Some(vec![0])]));
 }
 
 proptest! {

@@ -30,7 +30,7 @@ impl Fcd {
     }
 
     fn vehicle(&mut self, seen: &Seen, body: &Body, names: &Names) -> Result<(), Fault> {
-        let Seen { motion, class, .. } = seen;
+        let Seen { motion, class, parameters, .. } = seen;
         let Body { lanelet, along, front, pose, .. } = body;
         let Fcd { file, has_heights } = self;
         file.raw("        <vehicle id=\"").vehicle(names, motion.id);
@@ -40,7 +40,7 @@ impl Fcd {
             file.raw("\" z=\"").number(front.z);
         }
         file.raw("\" angle=\"").number(clockwise_from_north(pose.heading));
-        file.raw("\" type=\"").raw(class.body().name);
+        file.raw("\" type=\"").raw(names.type_in_xml(*class, *parameters));
         file.raw("\" speed=\"").number(motion.speed);
         file.raw("\" pos=\"").number(along.max(0.0));
         file.raw("\" lane=\"").raw(names.lanes.xml(*lanelet));
@@ -54,7 +54,8 @@ impl Writer for Fcd {
     fn write(&mut self, batch: &Batch, names: &Names) -> Result<(), Fault> {
         let Batch::Frame(frame) = batch else { return Ok(()) };
         for (step, seen, bodies) in frame.instants() {
-            let file = self.file.raw("    <timestep time=\"").time(f64::from(step) * names.step_s);
+            let file =
+                self.file.raw("    <timestep time=\"").time(names.begin_s + f64::from(step) * names.step_s);
             if seen.is_empty() {
                 file.end("\"/>\n")?;
                 continue;

@@ -31,8 +31,8 @@ impl LaneChangeOutput {
         let dir = if change.side == self.overtaking { 1 } else { -1 };
         let file = &mut self.file;
         file.raw("    <change id=\"").vehicle(names, change.vehicle);
-        file.raw("\" type=\"").raw(change.class.body().name);
-        file.raw("\" time=\"").time(change.time);
+        file.raw("\" type=\"").raw(names.type_in_xml(change.class, change.parameters));
+        file.raw("\" time=\"").time(names.begin_s + change.time);
         file.raw("\" from=\"").raw(names.lanes.xml(from));
         file.raw("\" to=\"").raw(names.lanes.xml(to));
         file.raw("\" dir=\"").integer(dir);

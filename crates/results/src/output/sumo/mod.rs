@@ -11,3 +11,4 @@ pub(super) use fcd::Fcd;
 pub(super) use lanechange::LaneChangeOutput;
 pub(super) use lanes::Lanes;
 pub(super) use tripinfo::TripInfo;
+pub(super) use xml::attribute;

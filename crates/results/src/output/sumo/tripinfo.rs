@@ -30,12 +30,12 @@ impl TripInfo {
         let (to, to_pos) = names.lanelet(end.at);
         let file = &mut self.file;
         file.raw("    <tripinfo id=\"").vehicle(names, record.vehicle);
-        file.raw("\" depart=\"").time(record.entered);
+        file.raw("\" depart=\"").time(names.begin_s + record.entered);
         file.raw("\" departLane=\"").raw(names.lanes.xml(from));
         file.raw("\" departPos=\"").number(from_pos);
         file.raw("\" departSpeed=\"").number(record.speed);
         file.raw("\" departDelay=\"").time(trip.waiting());
-        file.raw("\" arrival=\"").time(end.time);
+        file.raw("\" arrival=\"").time(names.begin_s + end.time);
         file.raw("\" arrivalLane=\"").raw(names.lanes.xml(to));
         file.raw("\" arrivalPos=\"").number(to_pos);
         file.raw("\" arrivalSpeed=\"").number(end.speed);
@@ -50,7 +50,7 @@ impl TripInfo {
             file.raw("\" timeLoss=\"").number(delay.max(0.0));
         }
         file.raw("\" rerouteNo=\"").integer(record.route_changes + record.missed_turns);
-        file.raw("\" devices=\"\" vType=\"").raw(record.class.body().name);
+        file.raw("\" devices=\"\" vType=\"").raw(names.type_in_xml(record.class, record.parameters));
         file.raw("\" speedFactor=\"").number(names.speed_factor(record.parameters));
         file.end("\" vaporized=\"\"/>\n")
     }

@@ -54,8 +54,8 @@ impl XmlFile {
 
     /// The name of a vehicle, or its id.
     pub(super) fn vehicle(&mut self, names: &Names, id: VehicleId) -> &mut XmlFile {
-        match names.vehicle(id) {
-            Some(name) => self.raw(&attribute(name)),
+        match names.vehicle_in_xml(id) {
+            Some(name) => self.raw(name),
             None => self.integer(id),
         }
     }
@@ -133,12 +133,12 @@ impl XmlFile {
     }
 }
 
-/// The text before the first element.
 /// Text as the value of an attribute.
 pub(in crate::output) fn attribute(text: &str) -> String {
     escaped(text).replace('"', "&quot;")
 }
 
+/// The text before the first element.
 fn header(root: &str, provenance: &Provenance) -> String {
     let Provenance { version, command, seed, scenario, .. } = provenance;
     let comment = format!(

@@ -86,14 +86,11 @@ fn a_reservation_can_be_given_back_from_a_place_on() {
 #[test]
 fn what_a_light_can_take_back_is_not_certain() {
     let mut reservations = of_one_zone();
-    let left = |it: &Reservations, slot| it.of(slot, 7).map(|it| it.left_for_certain(0.0, |_, _| false));
+    let left = |it: &Reservations, slot| it.of(slot, 7).map(|it| it.left_for_certain(0.0));
     let slot = reservations.grant(NO_RESERVATION, 7, LENGTH, &over_the_zone(0));
     assert_eq!(left(&reservations, slot), Some(8.0));
     // Who stops before the same line does not mind.
-    assert_eq!(reservations.of(slot, 7).map(|it| it.left_for_certain(8.0, |_, _| false)), Some(19.5));
-    // Nor does who relies on the light to stay green until the vehicle is there.
-    let passed = reservations.of(slot, 7).map(|it| it.left_for_certain(0.0, |_, ahead| ahead == 8.0));
-    assert_eq!(passed, Some(19.5));
+    assert_eq!(reservations.of(slot, 7).map(|it| it.left_for_certain(8.0)), Some(19.5));
     reservations.advance(slot, 8.0, 10.0, 14.0);
     assert_eq!(left(&reservations, slot), Some(11.5));
     reservations.end(slot, 7);

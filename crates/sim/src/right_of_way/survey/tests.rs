@@ -86,25 +86,11 @@ pub(crate) fn regulated(drawing: &Drawing) -> Network {
     map.network.regulated(&rules)
 }
 
-/// The same where the map says that no lanelets conflict.
-fn without_conflicts(drawing: &Drawing) -> Network {
-    let map = drawing.build().unwrap();
-    let rules = regulations(&map);
-    say_no_conflicts(map.network).regulated(&rules)
-}
-
-fn say_no_conflicts(mut network: Network) -> Network {
-    network.lanelets.iter_mut().for_each(|it| it.conflicting = Some(Vec::new()));
-    network
-}
-
 #[test]
 fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_maps() {
     let mut surveyed = 0;
-    for number in 0..24 {
-        let (seed, says_conflicts) = (number / 2 + 1, number % 2 == 1);
-        let drawing = laneweave_generate::random(seed).drawing;
-        let network = if says_conflicts { without_conflicts(&drawing) } else { regulated(&drawing) };
+    for seed in 1..=12 {
+        let network = regulated(&laneweave_generate::random(seed).drawing);
         survey_all_over(&network, |scene, applicant, out| {
             surveyed += 1;
             points(scene, applicant.from, &Cell::new(out.extent), |point, at, _| {
@@ -117,16 +103,11 @@ fn every_zone_within_the_extent_of_a_reservation_is_held_however_far_on_random_m
             });
         });
     }
-    assert!(surveyed > 400, "{surveyed}");
+    assert!(surveyed > 200, "{surveyed}");
 }
 
 /// A road of 200 m across two others, 25 m apart, with a line beyond the first of them.
 fn two_crossings(line: f64) -> Network {
-    let (network, regulations) = two_crossings_drawn(line);
-    network.regulated(&regulations)
-}
-
-fn two_crossings_drawn(line: f64) -> (Network, Regulations) {
     let lane = |id, from: [f64; 2], to: [f64; 2], aside: [f64; 2]| {
         let border = |by: f64| {
             let points = [from, to].map(|[x, y]| Point::new(x + by * aside[0], y + by * aside[1], 0.0));
@@ -141,30 +122,7 @@ fn two_crossings_drawn(line: f64) -> (Network, Regulations) {
         StopRule { id: 9.into(), kind: StopKind::Line, lanelets: vec![LaneletIndex(0)], lines: vec![line] };
     let lanelets = vec![road, northward(2, 50.0), northward(3, 75.0)];
     let network = Network::new(lanelets, DrivingSide::Right).unwrap();
-    (network, Regulations { stops: vec![stop], ..Regulations::default() })
-}
-
-#[test]
-fn where_nobody_crosses_a_vehicle_asks_for_one_zone_after_the_other_and_needs_no_space_beyond() {
-    let survey_of = |network: &Network| {
-        let navigator = Navigator::new(network);
-        let chain = network.start_of(LaneletIndex(0)).chain;
-        let snapshot = Snapshot::new(network, [Seen { chain, x: 40.0, ..standing() }]);
-        let styles = [some_style()];
-        let scene = snapshot.scene(network, &navigator, &styles);
-        let mut out = Survey::default();
-        let applicant = Applicant::at(&scene, snapshot.spot(1).unwrap());
-        assert!(survey(&scene, &applicant, [0.0, 40.0], |_, _| false, &mut out));
-        out
-    };
-    let (network, regulations) = two_crossings_drawn(150.0);
-    // The second crossing is nearer to the first one than the truck is long, with the space that it leaves.
-    let crossed = survey_of(&network.clone().regulated(&regulations));
-    assert!(crossed.needs_space && crossed.holds.len() == 1, "{crossed:?}");
-    // It has left the first crossing, which is 1.35 m to each side of 50 m with its half width and space.
-    assert!((23.0..26.0).contains(&crossed.extent), "{crossed:?}");
-    let free = survey_of(&say_no_conflicts(network).regulated(&regulations));
-    assert!(!free.needs_space && free.holds == crossed.holds, "{free:?}");
+    network.regulated(&Regulations { stops: vec![stop], ..Regulations::default() })
 }
 
 #[test]
