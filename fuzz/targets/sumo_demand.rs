@@ -18,7 +18,9 @@ fuzz_target!(|bytes: &[u8]| {
     scenario.run.duration_s = 60.0;
     scenario.sumo.routes = vec![file::holding(bytes)];
     match Simulation::from_scenario(&scenario, &Origin::default()) {
-        Ok(mut simulation) => simulation.steps(50),
+        Ok(mut simulation) => {
+            simulation.steps(50);
+        }
         Err(fault) => assert!(!fault.place.is_empty() && !fault.what.is_empty()),
     }
 });

@@ -49,7 +49,8 @@ pub enum WorldError {
     Line(String),
     /// A departure has places or a style that the demand has not, or an impossible time.
     #[error(
-        "the departures of single vehicles are not in order, or name places or styles that the demand does not have"
+        "the departures of single vehicles are not in order, name places or styles that the demand does not have, or have \
+         vehicles shorter than 0.5 m or longer than 12 m"
     )]
     Departures,
     /// The headways are impossible.
